@@ -112,7 +112,7 @@ TEST(CommandLinePreview, NobodyThereIsToldAndChangesNothing) {
 TEST(CommandLinePreview, AViewerThatVanishesOrStallsChangesNothing) {
     const WorkFolder folder;
     const std::string plain = pixels_of(folder, "");
-    MockTev quitting(7), stalled(0, false);
+    MockTev quitting(7), stalled(0, MockTev::Reads::Nothing);
     EXPECT_EQ(pixels_of(folder, "--preview " + quitting.address() + " --preview " + stalled.address()),
               plain);
     quitting.stop(), stalled.stop();

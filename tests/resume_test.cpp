@@ -1,6 +1,8 @@
-/// A frame that is cancelled again and again, and goes on with its finished tiles each time, is the same bits
-/// in the end.
+/// A frame that is cancelled or runs out of memory again and again, and goes on with its finished tiles each
+/// time, is the same bits in the end.
 #include <gtest/gtest.h>
+
+#include <new>
 
 #include "composite/film/film.h"
 #include "composite/film/kept_bytes_harness.h"
@@ -21,7 +23,9 @@ class MemoryKeeper final : public FilmKeeper {
         EXPECT_EQ(bytes_.at, bytes_.text.size());
         return true;
     }
-    void end(bool) override {
+    void end(bool is_cancelled) noexcept override {
+        ++ended;
+        was_cancelled = is_cancelled;
         if (!film_) return;
         bytes_ = {};
         EXPECT_TRUE(film_->write_finished(bytes_.writer()));
@@ -35,7 +39,8 @@ class MemoryKeeper final : public FilmKeeper {
     }
     int regions_at_least() const override { return regions; }
 
-    size_t begun = 0, tiles = 0;
+    size_t begun = 0, ended = 0, tiles = 0;
+    bool was_cancelled = false;
     int regions = 1;
     std::string reason;
 
@@ -48,8 +53,8 @@ struct Attempts {
     size_t cancelled = 0, with_tiles = 0;
 };
 
-/// Renders a world in attempts, each of which is cancelled when it is so far as a number says, until one
-/// comes to its end.
+/// Renders a world in attempts, each of which is cancelled, or has no more memory, when it is so far as a
+/// number says, until one comes to its end.
 std::optional<FrameResult> render_in_attempts(const Scene& scene, RenderSettings settings,
                                               Diagnostics& diagnostics, Attempts& attempts) {
     MemoryKeeper keeper;
@@ -59,12 +64,21 @@ std::optional<FrameResult> render_in_attempts(const Scene& scene, RenderSettings
         const double until = attempt < 4 ? unit_float(hash(attempt, settings.seed)) : 2;
         settings.cancelled = &cancelled;
         settings.on_progress = [&](double part) {
-            if (part >= until) cancelled = true;
+            if (part < until) return;
+            cancelled = true;
+            if (attempt % 2 == 1) throw std::bad_alloc();
         };
         keeper.regions = attempt % 2 ? 3 : 1;
-        auto result = render_frame(make_context(scene, settings, diagnostics), settings);
-        if (result) return result;
+        try {
+            auto result = render_frame(make_context(scene, settings, diagnostics), settings);
+            if (result) return result;
+            EXPECT_EQ(attempt % 2, 0u);
+        } catch (const std::bad_alloc&) {
+            EXPECT_EQ(attempt % 2, 1u);
+        }
         EXPECT_TRUE(cancelled.load());
+        EXPECT_EQ(keeper.begun, keeper.ended);
+        EXPECT_TRUE(keeper.begun == 0 || keeper.was_cancelled);
         ++attempts.cancelled;
         if (keeper.tiles > 0) ++attempts.with_tiles;
     }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <new>
 
 #include "pipeline/preview/mock_tev_harness.h"
 #include "pipeline/preview/preview.h"
@@ -17,8 +18,12 @@ namespace {
 class KeptBoard final : public FilmWatcher {
   public:
     explicit KeptBoard(Preview& preview) : preview_(preview) {}
-    void begin(const Film& film, const RenderContext& context) override { preview_.begin(film, context); }
-    void end() override {
+    void begin(const Film& film, const RenderContext& context) noexcept override {
+        preview_.begin(film, context);
+        ++begun;
+    }
+    void end() noexcept override {
+        ++ended;
         preview_.end();
         const PreviewEntry entry = preview_.board().status().entry;
         if (entry.picture) tiles += entry.picture->changes_after(0).pixels.size();
@@ -27,7 +32,7 @@ class KeptBoard final : public FilmWatcher {
         preview_.show(image, context);
         ++shown;
     }
-    size_t tiles = 0, shown = 0;
+    size_t begun = 0, ended = 0, tiles = 0, shown = 0;
 
   private:
     Preview& preview_;
@@ -118,6 +123,28 @@ TEST(WatchedFrames, EveryMethodIsTheSameBits) {
             expect_same_when_watched(tiny_scene_path("defocus_motion.rib"), "Format 160 112 1 ", settings),
             0u);
     }
+}
+
+/// Where memory runs out, nobody reads on in a film that is gone.
+TEST(WatchedFrames, AFrameWithoutMemoryIsReadNoLonger) {
+    Preview preview;
+    KeptBoard board(preview);
+    RenderSettings settings;
+    settings.watcher = &board;
+    settings.on_progress = [](double part) {
+        if (part > 0.5) throw std::bad_alloc();
+    };
+    Diagnostics diagnostics;
+    ReadOptions options;
+    options.first_texts.push_back({"test", "Format 320 224 1"});
+    const std::vector<std::string> files{tiny_scene_path("defocus_motion.rib")};
+    read_rib(files, options, diagnostics, [&](Scene&& scene) {
+        EXPECT_THROW(render_frame(make_context(scene, settings, diagnostics), settings), std::bad_alloc);
+        EXPECT_EQ(board.begun, 1u);
+        EXPECT_EQ(board.ended, 1u);
+        EXPECT_EQ(board.shown, 0u);
+        EXPECT_GT(board.tiles, 0u);
+    });
 }
 
 /// A picture that is broken off stays as far as it came.

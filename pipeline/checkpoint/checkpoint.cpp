@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <new>
 
 #include "composite/film/film.h"
 #include "core/files/output_file.h"
@@ -178,9 +179,12 @@ void Checkpoint::refuse(const std::string& why) {
     refused_ = true;
 }
 
-void Checkpoint::end(bool is_cancelled) {
+void Checkpoint::end(bool is_cancelled) noexcept {
     const std::lock_guard lock(mutex_);
-    if (is_cancelled) save_at_end_now();
+    try {
+        if (is_cancelled) save_at_end_now();
+    } catch (const std::bad_alloc&) {  // what was saved before stays, and save_at_end() tells of it
+    }
     film_ = nullptr;
 }
 

@@ -53,7 +53,7 @@ class Checkpoint final : public FilmKeeper {
     const CheckpointState& state() const { return state_; }
 
     bool begin(Film& film) override;
-    void end(bool is_cancelled) override;
+    void end(bool is_cancelled) noexcept override;
     void give_up(const std::string& why) override;
     int regions_at_least() const override { return state_.regions; }
 

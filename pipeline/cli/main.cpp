@@ -93,7 +93,7 @@ int main(int argc, char** argv) {
         const bool is_worse = code == kExitOk || code == kExitErrors;
         return !printed_all(terminal) && is_worse ? kExitNoOutput : code;
     } catch (const std::bad_alloc&) {
-        terminal.show({Severity::Error, "out of memory; no output was written", {}, {}, {}});
+        terminal.show({Severity::Error, "out of memory; what was being made is not written", {}, {}, {}});
         return kExitNoMemory;
     } catch (const std::exception& error) {
         if (!printed_all(terminal)) return kExitNoOutput;  // what prints throws where it cannot

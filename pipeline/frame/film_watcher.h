@@ -16,9 +16,9 @@ class FilmWatcher {
     /// is finished of it (Film::finished_pixels()). `context` is the frame's as it was asked for: its crop is
     /// the picture's, and the film may have a margin around it. Both live until end(). Called again, after an
     /// end(), where the frame begins anew.
-    virtual void begin(const Film& film, const RenderContext& context) = 0;
+    virtual void begin(const Film& film, const RenderContext& context) noexcept = 0;
     /// Nothing is to be read any more: the film is to be finished, or was cancelled.
-    virtual void end() = 0;
+    virtual void end() noexcept = 0;
     /// The whole picture of the film that has ended, as it will be written.
     virtual void show(const Image& image, const RenderContext& context) = 0;
 };

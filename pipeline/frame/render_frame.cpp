@@ -141,32 +141,42 @@ std::vector<Region> regions_of(const Frame& frame, const Film& film) {
         {frame.memory_budget, frame.regions_at_least, aov_layout(options).channel_count, &awaited});
 }
 
-/// The film with all regions in it; null when cancelled, or when the keeper refuses.
-/// The same, while the watcher, if there is one, may read the film: no longer, even where memory runs out.
-bool add_regions_watched(const Frame& frame, const std::vector<Region>& regions, FrameRecorder& recorder,
-                         Film& film) {
-    struct Watching {
-        FilmWatcher* watcher;
-        ~Watching() {
-            if (watcher) watcher->end();
-        }
-    };
-    if (frame.watcher) frame.watcher->begin(film, frame.asked);
-    const Watching watching{frame.watcher};
-    return add_regions(frame, regions, recorder, film);
-}
+/// Whoever may read the film while regions are added to it: no longer than that, even where memory runs out.
+class FilmReaders {
+  public:
+    /// The keeper has begun the film already.
+    FilmReaders(const Frame& frame, const Film& film, FilmKeeper* keeper)
+        : keeper_(keeper), watcher_(frame.watcher) {
+        if (watcher_) watcher_->begin(film, frame.asked);
+    }
+    ~FilmReaders() { end(true); }
+    FilmReaders(const FilmReaders&) = delete;
+    FilmReaders& operator=(const FilmReaders&) = delete;
 
+    void end(bool is_cancelled) noexcept {
+        if (watcher_) watcher_->end();
+        if (keeper_) keeper_->end(is_cancelled);
+        watcher_ = nullptr, keeper_ = nullptr;
+    }
+
+  private:
+    FilmKeeper* keeper_;
+    FilmWatcher* watcher_;
+};
+
+/// The film with all regions in it; null when cancelled, or when the keeper refuses.
 std::unique_ptr<Film> film_of_regions(const Frame& frame, FilmKeeper* keeper, FrameRecorder& recorder) {
     while (!frame.context.is_cancelled()) {
         auto film = std::make_unique<Film>(frame.context, false, frame.leave_gamma);
         if (keeper && !keeper->begin(*film)) return {};
+        FilmReaders readers(frame, *film, keeper);
         const std::vector<Region> regions = regions_of(frame, *film);
         recorder.stats().regions = static_cast<int>(regions.size());
         recorder.stats().shows_something = film->took_something();
-        const bool is_whole = add_regions_watched(frame, regions, recorder, *film);
+        const bool is_whole = add_regions(frame, regions, recorder, *film);
         const bool is_endless = !is_whole && !frame.context.is_cancelled();
         if (keeper && is_endless) keeper->give_up("a shader's loops are endless");
-        if (keeper) keeper->end(frame.context.is_cancelled());
+        readers.end(frame.context.is_cancelled());
         if (is_whole) return film;
         keeper = nullptr;
         recorder.restart();

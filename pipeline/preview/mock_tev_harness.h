@@ -103,9 +103,13 @@ struct TevImages {
 /// Listens at a port of its own for one viewer after the other, in a thread, until it is stopped.
 class MockTev {
   public:
-    /// `most_packets`: after so many of the first connection it closes that, as one that was quit. `reads`:
-    /// whether it reads at all. `port`: 0: any that is free.
-    explicit MockTev(size_t most_packets = ~size_t{0}, bool reads = true, int port = 0)
+    static constexpr size_t kAll = ~size_t{0};
+    /// LittleByLittle: some megabytes a second, of which it makes nothing.
+    enum class Reads { Packets, LittleByLittle, Nothing };
+
+    /// `most_packets`: after so many of the first connection it closes that, as one that was quit. `port`: 0:
+    /// any that is free.
+    explicit MockTev(size_t most_packets = kAll, Reads reads = Reads::Packets, int port = 0)
         : most_packets_(most_packets), reads_(reads) {
         listener_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
         sockaddr_in address{};
@@ -155,18 +159,27 @@ class MockTev {
             const int connection = accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC);
             if (connection < 0) return;
             ++connections_;
-            if (!reads_) {
-                while (!done_) usleep(1000);
-            } else {
-                try {
-                    const size_t most = connections_ == 1 ? most_packets_ : ~size_t{0};
-                    for (size_t packet = 0; packet < most && take_packet(connection); ++packet) {}
-                } catch (const std::exception& error) {
-                    problem_ = error.what();
-                }
-            }
+            read(connection);
             close(connection);
             hung_up_ = true;
+        }
+    }
+
+    void read(int connection) {
+        if (reads_ == Reads::Packets) return take_packets(connection);
+        std::vector<char> few(size_t{1} << 16);
+        while (!done_) {
+            usleep(10000);
+            if (reads_ == Reads::LittleByLittle) recv(connection, few.data(), few.size(), MSG_DONTWAIT);
+        }
+    }
+
+    void take_packets(int connection) {
+        try {
+            const size_t most = connections_ == 1 ? most_packets_ : kAll;
+            for (size_t packet = 0; packet < most && take_packet(connection); ++packet) {}
+        } catch (const std::exception& error) {
+            problem_ = error.what();
         }
     }
 
@@ -189,7 +202,7 @@ class MockTev {
     }
 
     const size_t most_packets_;
-    const bool reads_;
+    const Reads reads_;
     int listener_ = -1, port_ = 0;
     std::atomic<int> connections_{0};
     std::atomic<bool> done_{false}, hung_up_{false};

@@ -289,14 +289,42 @@
     stand.addEventListener("wheel", event => {
         event.preventDefault();
         fitted = false;
-        const box = stand.getBoundingClientRect();
-        enlargeTo(scale * 2 ** (-event.deltaY / 300), event.clientX - box.left, event.clientY - box.top);
+        enlargeTo(scale * 2 ** (-event.deltaY / 300), ...pointOf(event));
     }, {passive: false});
-    stand.addEventListener("pointerdown", () => { fitted = false; });
-    stand.addEventListener("pointermove", event => {
-        if (event.buttons & 1) x += event.movementX, y += event.movementY, place();
+    function pointOf(event) {
         const box = stand.getBoundingClientRect();
-        read(Math.floor((event.clientX - box.left - x) / scale), Math.floor((event.clientY - box.top - y) / scale));
+        return [event.clientX - box.left, event.clientY - box.top];
+    }
+    // The mouse or the fingers that hold the picture, and where they were last.
+    const held = new Map();
+    function hold(event) {
+        // Also where it leaves the stand.
+        stand.setPointerCapture(event.pointerId);
+        held.set(event.pointerId, pointOf(event));
+    }
+    stand.addEventListener("pointerdown", event => { if (event.button === 0) hold(event); });
+    for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
+        stand.addEventListener(end, event => { held.delete(event.pointerId); });
+    // One moves the picture, two enlarge it too.
+    function drag(from, to, other) {
+        fitted = false;
+        const part = other ? 0.5 : 1;
+        x += part * (to[0] - from[0]), y += part * (to[1] - from[1]);
+        if (!other) return place();
+        const distance = at => Math.max(1, Math.hypot(at[0] - other[0], at[1] - other[1]));
+        enlargeTo(scale * distance(to) / distance(from), (to[0] + other[0]) / 2, (to[1] + other[1]) / 2);
+    }
+    stand.addEventListener("pointermove", event => {
+        // A button that is pressed or let go while another is down says so by a move.
+        if (!(event.buttons & 1)) held.delete(event.pointerId);
+        else if (event.button === 0) hold(event);
+        const to = pointOf(event), from = held.get(event.pointerId);
+        if (from && (to[0] !== from[0] || to[1] !== from[1])) {
+            const others = [...held].filter(([id]) => id !== event.pointerId);
+            if (others.length < 2) drag(from, to, others.length ? others[0][1] : null);
+            held.set(event.pointerId, to);
+        }
+        read(Math.floor((to[0] - x) / scale), Math.floor((to[1] - y) / scale));
     });
     stand.addEventListener("keydown", event => {
         if (event.ctrlKey || event.metaKey || event.altKey) return;

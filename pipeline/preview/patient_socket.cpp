@@ -8,7 +8,10 @@
 
 #include <cerrno>
 #include <cstring>
+#include <future>
 #include <memory>
+#include <system_error>
+#include <thread>
 
 namespace trapeze {
 namespace {
@@ -18,7 +21,34 @@ using Clock = std::chrono::steady_clock;
 /// So often the patience is asked.
 constexpr std::chrono::milliseconds kAskAgain{50};
 
+struct Addresses {
+    int wrong = 0;  ///< why there are none
+    std::unique_ptr<addrinfo, void (*)(addrinfo*)> first{nullptr, freeaddrinfo};
+};
+
+Addresses look_up(PatientSocket::Lookup* lookup, const std::string& host, int port, int flags) {
+    addrinfo wanted{};
+    wanted.ai_family = AF_UNSPEC, wanted.ai_socktype = SOCK_STREAM, wanted.ai_flags = flags;
+    addrinfo* found = nullptr;
+    Addresses addresses;
+    addresses.wrong = lookup(host.c_str(), std::to_string(port).c_str(), &wanted, &found);
+    if (!addresses.wrong) addresses.first.reset(found);
+    return addresses;
+}
+
+/// The same in a thread of its own: nothing but the system's own time, half a minute and more, ends the wait
+/// for a name server that is dead. Throws what std::thread does.
+std::future<Addresses> look_up_aside(PatientSocket::Lookup* lookup, const std::string& host, int port) {
+    std::packaged_task<Addresses()> task([=] { return look_up(lookup, host, port, 0); });
+    std::future<Addresses> addresses = task.get_future();
+    std::thread(std::move(task)).detach();
+    return addresses;
+}
+
 }  // namespace
+
+PatientSocket::PatientSocket(std::function<std::chrono::milliseconds()> patience)
+    : PatientSocket(std::move(patience), getaddrinfo) {}
 
 bool PatientSocket::fail(std::string why) {
     close();
@@ -39,13 +69,18 @@ bool PatientSocket::is_open() const {
 
 bool PatientSocket::connect(const std::string& host, int port) {
     close();
-    addrinfo wanted{};
-    wanted.ai_family = AF_UNSPEC, wanted.ai_socktype = SOCK_STREAM;
-    addrinfo* found = nullptr;
-    if (const int wrong = getaddrinfo(host.c_str(), std::to_string(port).c_str(), &wanted, &found))
-        return fail(gai_strerror(wrong));
-    const std::unique_ptr<addrinfo, void (*)(addrinfo*)> addresses(found, freeaddrinfo);
-    for (const addrinfo* at = found; at; at = at->ai_next)
+    Addresses addresses = look_up(lookup_, host, port, AI_NUMERICHOST);  // asks nobody
+    if (addresses.wrong) try {
+            std::future<Addresses> looked_up = look_up_aside(lookup_, host, port);
+            if (!wait_until([&] { return looked_up.wait_for(kAskAgain) == std::future_status::ready; },
+                            "nobody says where it is"))
+                return false;
+            addresses = looked_up.get();
+        } catch (const std::system_error&) {
+            return fail("there is no thread to look for it");
+        }
+    if (addresses.wrong) return fail(gai_strerror(addresses.wrong));
+    for (const addrinfo* at = addresses.first.get(); at; at = at->ai_next)
         if (try_connect(at->ai_family, at->ai_addr, at->ai_addrlen)) return true;
     return false;
 }
@@ -62,13 +97,21 @@ bool PatientSocket::try_connect(int family, const void* address, unsigned length
     return wrong == 0 || fail(std::strerror(wrong));
 }
 
-bool PatientSocket::wait_until_it_takes() {
+/// `is_so` waits for kAskAgain.
+bool PatientSocket::wait_until(const std::function<bool()>& is_so, const char* otherwise) {
     const auto since = Clock::now();
-    for (;;) {
-        pollfd waiting{file_, POLLOUT, 0};
-        if (poll(&waiting, 1, static_cast<int>(kAskAgain.count())) > 0) return true;
-        if (Clock::now() - since >= patience_()) return fail("it takes nothing any more");
-    }
+    while (Clock::now() - since < patience_())
+        if (is_so()) return true;
+    return fail(otherwise);
+}
+
+bool PatientSocket::wait_until_it_takes() {
+    return wait_until(
+        [&] {
+            pollfd waiting{file_, POLLOUT, 0};
+            return poll(&waiting, 1, static_cast<int>(kAskAgain.count())) > 0;
+        },
+        "it takes nothing any more");
 }
 
 bool PatientSocket::send(std::string_view bytes) {

@@ -6,14 +6,21 @@
 #include <string>
 #include <string_view>
 
+struct addrinfo;
+
 namespace trapeze {
 
 /// Sends without ever waiting longer than it is allowed to. For one thread.
 class PatientSocket {
   public:
-    /// `patience`, asked again and again while nothing is taken, says for how long that may be.
-    explicit PatientSocket(std::function<std::chrono::milliseconds()> patience)
-        : patience_(std::move(patience)) {}
+    /// What finds the addresses of a host: getaddrinfo().
+    using Lookup = int(const char* host, const char* service, const addrinfo* wanted, addrinfo** found);
+
+    /// `patience`, asked again and again while nothing is taken, says for how long that may be; none: nothing
+    /// is waited for any more. `lookup` may be called by a thread that outlives the socket.
+    explicit PatientSocket(std::function<std::chrono::milliseconds()> patience);
+    PatientSocket(std::function<std::chrono::milliseconds()> patience, Lookup* lookup)
+        : patience_(std::move(patience)), lookup_(lookup) {}
     ~PatientSocket() { close(); }
     PatientSocket(const PatientSocket&) = delete;
     PatientSocket& operator=(const PatientSocket&) = delete;
@@ -29,10 +36,12 @@ class PatientSocket {
 
   private:
     bool try_connect(int family, const void* address, unsigned length);
+    bool wait_until(const std::function<bool()>& is_so, const char* otherwise);
     bool wait_until_it_takes();
     bool fail(std::string why);
 
     const std::function<std::chrono::milliseconds()> patience_;
+    Lookup* const lookup_;
     int file_ = -1;
     std::string problem_;
 };

@@ -21,7 +21,7 @@ std::string name_of(const Options& options) {
 
 }  // namespace
 
-Preview::Preview() : copier_([this] { copy_now_and_then(); }) {}
+Preview::Preview(size_t most_bytes) : board_(most_bytes), copier_([this] { copy_now_and_then(); }) {}
 
 Preview::~Preview() {
     {
@@ -35,7 +35,7 @@ Preview::~Preview() {
     for (const auto& viewer : viewers_) viewer->finish();
 }
 
-void Preview::begin(const Film& film, const RenderContext& context) {
+void Preview::begin(const Film& film, const RenderContext& context) noexcept {
     close_picture();
     const Image& image = film.unfinished();
     const PixelRect window = intersection(context.camera.crop, image.window);
@@ -63,7 +63,7 @@ void Preview::begin_picture(const Film& film, const RenderContext& context, cons
     board_.begin_picture({0, picture_, context.colors, context.scene->options.frame});
 }
 
-void Preview::end() {
+void Preview::end() noexcept {
     const std::lock_guard lock(mutex_);
     if (!film_) return;
     copy_finished();

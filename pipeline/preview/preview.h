@@ -24,7 +24,8 @@ class PreviewViewer {
 /// no viewer: it waits for copies of pixels alone.
 class Preview final : public FilmWatcher {
   public:
-    Preview();
+    /// `most_bytes`: as PreviewBoard has it.
+    explicit Preview(size_t most_bytes = ~size_t{0});
     /// Ends the run for all viewers.
     ~Preview() override;
     Preview(const Preview&) = delete;
@@ -37,8 +38,8 @@ class Preview final : public FilmWatcher {
     void begin_stage(std::string_view name) { board_.begin_stage(name); }
     void progress(double fraction) { board_.progress(fraction); }
 
-    void begin(const Film& film, const RenderContext& context) override;
-    void end() override;
+    void begin(const Film& film, const RenderContext& context) noexcept override;
+    void end() noexcept override;
     void show(const Image& image, const RenderContext& context) override;
 
   private:

@@ -1,5 +1,7 @@
 #include "pipeline/preview/preview_board.h"
 
+#include <algorithm>
+
 namespace trapeze {
 
 void PreviewBoard::begin_picture(PreviewEntry entry) {
@@ -7,13 +9,23 @@ void PreviewBoard::begin_picture(PreviewEntry entry) {
         const std::lock_guard lock(mutex_);
         entry.number = ++count_;
         pictures_.push_back(entry);
-        if (pictures_.size() > kPicturesKept) pictures_.pop_front();
+        forget_old_pictures();
         status_.entry = std::move(entry);
         status_.fraction = 0, status_.stage.clear();
         begun_ = std::chrono::steady_clock::now();
         ++status_.version;
     }
     changed_.notify_all();
+}
+
+void PreviewBoard::forget_old_pictures() {
+    size_t bytes = 0, kept = 1;
+    while (kept < std::min(pictures_.size(), kPicturesKept)) {
+        bytes += pictures_[pictures_.size() - 1 - kept].picture->bytes();
+        if (bytes > most_bytes_) break;
+        ++kept;
+    }
+    while (pictures_.size() > kept) pictures_.pop_front();
 }
 
 void PreviewBoard::begin_stage(std::string_view name) {
@@ -45,6 +57,7 @@ void PreviewBoard::note_change() {
 void PreviewBoard::end() {
     {
         const std::lock_guard lock(mutex_);
+        if (!status_.ended) ended_at_ = std::chrono::steady_clock::now();
         status_.ended = true;
         ++status_.version;
     }
@@ -61,6 +74,14 @@ PreviewStatus PreviewBoard::status_now() const {
 PreviewStatus PreviewBoard::status() const {
     const std::lock_guard lock(mutex_);
     return status_now();
+}
+
+std::chrono::milliseconds PreviewBoard::time_for_viewers() const {
+    using namespace std::chrono;
+    const std::lock_guard lock(mutex_);
+    if (!status_.ended) return longest_end_;
+    const auto left = duration_cast<milliseconds>(ended_at_ + longest_end_ - steady_clock::now());
+    return std::max(left, milliseconds(0));
 }
 
 PreviewEntry PreviewBoard::picture(int number) const {

@@ -36,8 +36,15 @@ struct PreviewStatus {
 /// All functions are thread-safe. The run writes, viewers read.
 class PreviewBoard {
   public:
-    /// A viewer that is slower than the run misses pictures: so many are kept for it.
+    /// A viewer that is slower than the run misses pictures: so many are kept for it, or as many as fit.
     static constexpr size_t kPicturesKept = 4;
+    /// So long a run waits at its end for viewers that get on slowly, where nothing else is said.
+    static constexpr std::chrono::seconds kLongestEnd{20};
+
+    /// `most_bytes`: of the pictures that are kept beside the last. A viewer has the one that it shows as
+    /// well.
+    explicit PreviewBoard(size_t most_bytes = ~size_t{0}, std::chrono::milliseconds longest_end = kLongestEnd)
+        : most_bytes_(most_bytes), longest_end_(longest_end) {}
 
     void begin_picture(PreviewEntry entry);
     void begin_stage(std::string_view name);
@@ -47,6 +54,8 @@ class PreviewBoard {
     void end();
 
     PreviewStatus status() const;
+    /// What is left of that; all of it until the run ends.
+    std::chrono::milliseconds time_for_viewers() const;
     /// A picture that is still kept; with number 0 where it is not.
     PreviewEntry picture(int number) const;
     /// status(), once its version is greater than this, or the run has ended, or the time is over.
@@ -57,13 +66,16 @@ class PreviewBoard {
 
   private:
     PreviewStatus status_now() const;
+    void forget_old_pictures();
 
+    const size_t most_bytes_;
+    const std::chrono::milliseconds longest_end_;
     mutable std::mutex mutex_;
     mutable std::condition_variable changed_;
     std::deque<PreviewEntry> pictures_;
     int count_ = 0;
     PreviewStatus status_;
-    std::chrono::steady_clock::time_point begun_;
+    std::chrono::steady_clock::time_point begun_, ended_at_;
 };
 
 }  // namespace trapeze

@@ -28,6 +28,10 @@ PreviewPicture::PreviewPicture(PreviewFacts facts) : facts_(std::move(facts)) {
                      std::vector<float>(count, std::numeric_limits<float>::quiet_NaN()));
 }
 
+size_t PreviewPicture::bytes() const {
+    return channels_.empty() ? 0 : channels_.size() * channels_.front().size() * sizeof(float);
+}
+
 PixelRect PreviewPicture::square(size_t tile) const {
     const int x = (first_column_ + static_cast<int>(tile) % columns_) * kTileSide,
               y = (first_row_ + static_cast<int>(tile) / columns_) * kTileSide;

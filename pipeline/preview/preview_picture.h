@@ -36,6 +36,8 @@ class PreviewPicture {
     explicit PreviewPicture(PreviewFacts facts);
 
     const PreviewFacts& facts() const { return facts_; }
+    /// Of its pixels' values.
+    size_t bytes() const;
 
     /// Takes pixels of one tile, in addition to those that it has or in place of them.
     void put(const PixelRect& pixels, const PixelSource& source);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <new>
 #include <numeric>
 
@@ -27,7 +28,8 @@ TevViewer::TevViewer(const PreviewBoard& board, std::string host, int port,
       port_(port),
       report_(std::move(report)),
       socket_([this]() -> std::chrono::milliseconds {
-          return board_.status().ended ? kPatienceAtEnd : kPatience;
+          if (!board_.status().ended) return kPatience;
+          return std::min<std::chrono::milliseconds>(kPatienceAtEnd, board_.time_for_viewers());
       }),
       thread_([this] {
           try {

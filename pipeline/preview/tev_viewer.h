@@ -21,7 +21,7 @@ class TevViewer final : public PreviewViewer {
               std::function<void(const std::string&)> report);
     ~TevViewer() override;
 
-    /// Returns when all is sent, or nothing has been taken for a second.
+    /// Returns when all is sent, nothing has been taken for a second, or the board has no more time.
     void finish() override;
 
   private:

@@ -170,7 +170,7 @@ TEST(TevViewer, OneThatIsStartedLaterHasThePicture) {
     board.begin_picture({0, picture, {}, 0});
     picture->put({0, 0, 16, 16}, numbers.source());
     while (reports.count() == 0) std::this_thread::yield();
-    MockTev tev(~size_t{0}, true, port);
+    MockTev tev(MockTev::kAll, MockTev::Reads::Packets, port);
     while (tev.connections() == 0) std::this_thread::yield();
     picture->finish(numbers.source());
     board.end();
@@ -195,8 +195,24 @@ TEST(TevViewer, OneThatHungUpBetweenPicturesMissesNone) {
     expect_numbers(shown.images.at("b.exr"), numbers);
 }
 
+/// It would take a quarter of a minute for the picture.
+TEST(TevViewer, OneThatTakesLittleAtATimeIsLeftWhenTimeIsOver) {
+    MockTev tev(MockTev::kAll, MockTev::Reads::LittleByLittle);
+    Reports reports;
+    const NumberedPicture numbers({0, 0, 2560, 1920}, 5);
+    {
+        PreviewBoard board(~size_t{0}, std::chrono::milliseconds(300));
+        TevViewer viewer(board, "127.0.0.1", tev.port(), reports.taker());
+        make_picture(board, "a.exr", numbers, 2560, 1920);
+        board.end();
+        viewer.finish();
+    }
+    EXPECT_EQ(reports.lines.size(), 1u);  // it has not been sent all
+    tev.stop();
+}
+
 TEST(TevViewer, OneThatTakesNothingHoldsNobodyUp) {
-    MockTev tev(0, false);
+    MockTev tev(0, MockTev::Reads::Nothing);
     Reports reports;
     PreviewBoard board;
     TevViewer viewer(board, "127.0.0.1", tev.port(), reports.taker());

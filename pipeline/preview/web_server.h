@@ -29,8 +29,8 @@ struct WebAnswer {
 /// Called from several threads at a time.
 using AnswerWebRequest = std::function<WebAnswer(const WebRequest&)>;
 
-/// Serves as long as it lives. Its end waits for answers that are being made, and for a second at most where
-/// a browser takes nothing.
+/// Serves as long as it lives. Its end waits for answers that are being made, and a second at most for
+/// browsers that take them.
 class WebServer {
   public:
     virtual ~WebServer() = default;

@@ -9,13 +9,13 @@ namespace {
 
 /// The ports that are tried where the user names none: beside tev's.
 constexpr int kFirstPort = 14159, kLastPort = 14168;
-/// Pages are looked after so often at the end, and for so long at most.
+/// Pages are looked after so often at the end.
 constexpr std::chrono::milliseconds kLookAfterPages{10};
-constexpr std::chrono::seconds kLongestEnd{20};
 
 }  // namespace
 
-WebViewer::WebViewer(const PreviewBoard& board) : pages_(board, std::string("Trapeze ") + kVersion) {}
+WebViewer::WebViewer(const PreviewBoard& board)
+    : board_(board), pages_(board, std::string("Trapeze ") + kVersion) {}
 
 WebViewer::~WebViewer() = default;
 
@@ -34,8 +34,7 @@ std::string WebViewer::address() const {
 }
 
 void WebViewer::finish() {
-    const auto until = std::chrono::steady_clock::now() + kLongestEnd;
-    while (!pages_.everybody_has_all() && std::chrono::steady_clock::now() < until)
+    while (!pages_.everybody_has_all() && board_.time_for_viewers().count() > 0)
         std::this_thread::sleep_for(kLookAfterPages);
     server_.reset();
 }

@@ -23,6 +23,7 @@ class WebViewer final : public PreviewViewer {
   private:
     explicit WebViewer(const PreviewBoard& board);
 
+    const PreviewBoard& board_;
     WebPages pages_;
     std::unique_ptr<WebServer> server_;
 };

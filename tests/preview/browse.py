@@ -7,6 +7,7 @@ import socket
 import subprocess
 import sys
 import time
+import urllib.error
 import urllib.request
 
 program, root, folder = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
@@ -33,8 +34,11 @@ class Browser:
     def ask(self, method, path, body=None):
         data = None if body is None else json.dumps(body).encode()
         request = urllib.request.Request(self.base + path, data, {"Content-Type": "application/json"}, method=method)
-        with urllib.request.urlopen(request, timeout=60) as answer:
-            return json.load(answer)["value"]
+        try:
+            with urllib.request.urlopen(request, timeout=60) as answer:
+                return json.load(answer)["value"]
+        except urllib.error.HTTPError as problem:
+            sys.exit(f"chromedriver: {json.load(problem)['value']['message']}")
 
     def run(self, script, *arguments):
         return self.ask("POST", "/execute/sync", {"script": script, "args": list(arguments)})
@@ -69,6 +73,26 @@ class Browser:
                       "return [b.left + (arguments[0] + .5) * s, b.top + (arguments[1] + .5) * s]", x, y)
         move = {"type": "pointerMove", "duration": 0, "x": round(at[0]), "y": round(at[1])}
         self.ask("POST", "/actions", {"actions": [{"type": "pointer", "id": "mouse", "actions": [move]}]})
+
+    def fingers(self, *paths):
+        """Each finger is put down at the first of its points of the window, goes to the others, and is lifted."""
+        def steps(path):
+            moves = [{"type": "pointerMove", "duration": 50, "x": x, "y": y} for x, y in path]
+            return [moves[0], {"type": "pointerDown", "button": 0}, *moves[1:], {"type": "pointerUp", "button": 0}]
+        self.ask("POST", "/actions", {"actions": [
+            {"type": "pointer", "id": f"finger{i}", "parameters": {"pointerType": "touch"}, "actions": steps(path)}
+            for i, path in enumerate(paths)]})
+
+    def drag(self, *path):
+        """The same by the mouse."""
+        moves = [{"type": "pointerMove", "duration": 0, "x": x, "y": y} for x, y in path]
+        steps = [moves[0], {"type": "pointerDown", "button": 0}, *moves[1:], {"type": "pointerUp", "button": 0}]
+        self.ask("POST", "/actions", {"actions": [{"type": "pointer", "id": "mouse", "actions": steps}]})
+
+    def place(self):
+        """Left, top and width of the picture in the window, in pixels."""
+        return self.run("const b = document.getElementById('canvas').getBoundingClientRect();"
+                        "return [b.left, b.top, b.width]")
 
     def close(self):
         self.ask("DELETE", "")
@@ -109,6 +133,30 @@ def nobody_else_was_asked(browser, port):
         sys.exit(f"the console says: {problems}")
 
 
+def expect_place(browser, expected, what):
+    place = browser.place()
+    if any(abs(is_ - should) > 1 for is_, should in zip(place, expected)):
+        sys.exit(f"{what}: the picture is at {place}, not at {expected}")
+
+
+def move_about(browser):
+    """A drag goes on outside of the picture's stand; two fingers move and enlarge."""
+    left, top, width = browser.place()
+    stand_top = browser.run("return document.getElementById('stand').getBoundingClientRect().top")
+    if stand_top < 20:
+        sys.exit("there is nothing above the picture's stand to drag to")
+    browser.drag((400, 400), (450, 300), (460, 5))
+    expect_place(browser, (left + 60, top - 395, width), "after a drag")
+    browser.drag((460, 5), (400, 400))
+    expect_place(browser, (left + 60, top - 395, width), "after a drag from elsewhere")
+    browser.drag((400, 300), (400, 665))
+    browser.fingers([(400, 400), (300, 400)], [(500, 400), (500, 400)])
+    # 100 pixels apart, then 200: what was half way between them still is, and twice as large.
+    expect_place(browser, (400 - 2 * (450 - left - 60), 400 - 2 * (400 - top + 30), 2 * width), "after a pinch")
+    browser.run("document.getElementById('fit').click()")
+    expect_place(browser, (left, top, width), "when it fits again")
+
+
 def look(driver_port, dark):
     shade = "dark" if dark else "light"
     port = free_port()
@@ -129,6 +177,7 @@ def look(driver_port, dark):
     if "albedo.R" not in browser.text("pixel"):
         sys.exit(f"not all values of a pixel are told: {browser.text('pixel')}")
     browser.shoot(f"{shade}-2-finished")
+    move_about(browser)
     browser.set("layer", "N", "change")
     browser.shoot(f"{shade}-3-normals")
     browser.set("layer", "RGB", "change")

@@ -68,6 +68,7 @@ class RenderJob {
     int run();
 
   private:
+    int render();
     void render_world(Scene&& scene);
     bool was_rendered(size_t index);
     FinishedWorld make_pictures(const Scene& scene, bool is_tile, double read_seconds);
@@ -273,6 +274,15 @@ void RenderJob::close_checkpoint() {
 }
 
 int RenderJob::run() {
+    try {
+        return render();
+    } catch (const std::bad_alloc&) {
+        if (checkpoint_ && !checkpoint_->refused()) diagnostics_.note({}, checkpoint_->save_at_end());
+        throw;
+    }
+}
+
+int RenderJob::render() {
     if (!outputs_are_possible()) return kExitNoOutput;
     if (!colors_are_possible() || !open_checkpoint()) return kExitNoInput;
     ReadOptions options = read_options(arguments_, access_);

@@ -2,15 +2,23 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/frame/render_frame.h"
 #include "pipeline/preview/tev_viewer.h"
 #include "pipeline/preview/web_viewer.h"
 
 namespace trapeze {
+namespace {
+
+/// Pictures that are kept for slow viewers take at most this part of the memory, beside the last one.
+constexpr size_t kKeptShare = 8;
+
+}  // namespace
 
 std::unique_ptr<Preview> preview_of(const Arguments& arguments, Terminal& terminal,
                                     Diagnostics& diagnostics) {
     if (arguments.previews.empty()) return {};
-    auto preview = std::make_unique<Preview>();
+    const size_t budget = arguments.memory_bytes ? arguments.memory_bytes : default_memory_budget();
+    auto preview = std::make_unique<Preview>(budget / kKeptShare);
     for (const ViewerAddress& address : arguments.previews) {
         if (address.kind == ViewerAddress::Kind::Tev) {
             const auto report = [&diagnostics](const std::string& problem) { diagnostics.note({}, problem); };

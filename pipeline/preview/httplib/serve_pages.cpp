@@ -1,7 +1,10 @@
 #include <httplib.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <thread>
 
+#include "pipeline/preview/httplib/brief_connection.h"
 #include "pipeline/preview/web_server.h"
 
 namespace trapeze {
@@ -10,10 +13,29 @@ namespace {
 constexpr const char* kHost = "127.0.0.1";
 /// Requests are short, and have no body.
 constexpr size_t kMostBody = 1024;
-/// Seconds for which a browser may take nothing of an answer, or say nothing of a request.
-constexpr time_t kPatience = 1;
 /// Each page keeps one answer waiting while it asks for others.
 constexpr size_t kThreads = 8;
+
+/// The library's server, but that nobody can hold up its end.
+class BriefServer final : public httplib::Server {
+  public:
+    /// From now on nothing is waited for longer than for a moment.
+    void hurry() { end_ = std::chrono::steady_clock::now() + BriefConnection::kPatience; }
+
+  private:
+    bool process_and_close_socket(socket_t socket) override {
+        bool is_closed = false, is_answered = false;
+        BriefConnection connection(socket, end_);
+        try {
+            is_answered = process_request(connection, true, is_closed, nullptr);
+        } catch (const std::exception&) {}  // no memory for what is asked: the browser asks again
+        shutdown(socket, SHUT_RDWR);
+        close(socket);
+        return is_answered;
+    }
+
+    EndOfWaiting end_{std::chrono::steady_clock::time_point::max()};
+};
 
 class HttplibServer final : public WebServer {
   public:
@@ -25,11 +47,6 @@ class HttplibServer final : public WebServer {
             setsockopt(file, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
         });
         server_.set_payload_max_length(kMostBody);
-        server_.set_read_timeout(kPatience);
-        server_.set_write_timeout(kPatience);
-        // A connection that says nothing would keep a thread, and the end, waiting.
-        server_.set_keep_alive_max_count(1);
-        server_.set_keep_alive_timeout(kPatience);
         server_.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
             respond(request, response);
             return httplib::Server::HandlerResponse::Handled;
@@ -37,6 +54,7 @@ class HttplibServer final : public WebServer {
     }
 
     ~HttplibServer() override {
+        server_.hurry();
         server_.stop();
         if (thread_.joinable()) thread_.join();
     }
@@ -80,7 +98,7 @@ class HttplibServer final : public WebServer {
     }
 
     const AnswerWebRequest answer_;
-    httplib::Server server_;
+    BriefServer server_;
     std::thread thread_;
     int port_ = 0;
 };
