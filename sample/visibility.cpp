@@ -49,6 +49,11 @@ std::unique_ptr<Visibility> Sampler::prepare(const RenderContext& context, const
     return with_cuts(with_levels_of_detail(std::move(visibility), context, grids), context, grids);
 }
 
+BuildMemory Sampler::build_memory() const {
+    const VisibilityMethod& row = *find_named(visibility_methods(), method.name);
+    return row.build_memory ? row.build_memory(method) : BuildMemory();
+}
+
 bool Sampler::takes_levels() const {
     return find_named(visibility_methods(), method.name)->takes_lists && pattern.name == "stratified";
 }

@@ -12,6 +12,7 @@
 #include "core/samples.h"
 #include "core/scene/render_context.h"
 #include "core/stats.h"
+#include "sample/build_memory.h"
 #include "sample/names/method_spec.h"
 #include "sample/patterns/sample_pattern.h"
 #include "sample/sample_scratch.h"
@@ -31,9 +32,11 @@ class Visibility {
     virtual BuildStats build_stats() const { return {}; }
 
     /// Takes the grids of the next frame of a sequence in place of those that it was prepared for, and
-    /// changes what it has prepared to fit them. False, with nothing changed, where that is not its way:
-    /// prepare anew.
-    virtual bool update(const Grids& /*grids*/) { return false; }
+    /// changes what it has prepared to fit them. `changed`: the grids, by number, in which they differ from
+    /// those before; null: any may. False, with nothing changed, where that is not its way: prepare anew.
+    virtual bool update(const Grids& /*grids*/, const std::vector<uint32_t>* /*changed*/ = nullptr) {
+        return false;
+    }
 
     /// Whether resolve() takes as long for a part of the samples' lists as for the whole: then few samples at
     /// a time are to be looked at, of which nothing is left for another pass.
@@ -72,6 +75,8 @@ struct VisibilityMethod {
     bool is_exact = true;
     /// Whether resolve() takes tiles of listed pixels: what adaptive sampling asks for.
     bool takes_lists = false;
+    /// What prepare() takes with these options; null: what most do.
+    BuildMemory (*build_memory)(const MethodSpec& method) = nullptr;
 };
 
 const std::vector<VisibilityMethod>& visibility_methods();
@@ -86,6 +91,8 @@ struct Sampler {
     /// Prepares the method for some grids. Samples must come from the pattern that make_pattern() makes with
     /// the same context.
     std::unique_ptr<Visibility> prepare(const RenderContext& context, const Grids& grids) const;
+    /// What that takes while it is done.
+    BuildMemory build_memory() const;
     /// Whether pixels may have numbers of samples of their own (SamplePattern::levels()).
     bool takes_levels() const;
     /// The method as a user would name it, without options at their default.

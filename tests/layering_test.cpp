@@ -74,7 +74,7 @@ const std::map<std::string, Names> kWings = {
     {"pipeline/rib/write", {"pipeline/rib", "pipeline/rib/syntax"}},
     {"pipeline/study",
      {"pipeline/compare", "pipeline/compare/record", "pipeline/compare/report", "pipeline/frame",
-      "pipeline/rib", "pipeline/study/scenes"}},
+      "pipeline/rib", "pipeline/study/aff", "pipeline/study/scenes"}},
     {"pipeline/study/report",
      {"pipeline/compare", "pipeline/compare/record", "pipeline/compare/report", "pipeline/frame",
       "pipeline/study"}},

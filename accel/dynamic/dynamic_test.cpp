@@ -94,6 +94,41 @@ TEST(InsertionTree, StaysATreeWhateverMoves) {
     }
 }
 
+/// Told what has moved, a tree becomes the same as one that looks for itself.
+TEST(InsertionTree, LooksAtNothingButWhatItIsToldHasMoved) {
+    const auto wall_of_quads = [](float moved_by, int count = 500) {
+        GridMaker maker;
+        for (int n = 0; n < count; ++n)
+            maker.add(n % 7 == 0 ? 2 : 1, 1, 1, [n, moved_by](int i, int j, float) {
+                const float by = n % 10 == 3 ? moved_by : 0;
+                return V3f(.2f * (static_cast<float>(n % 25) + .9f * static_cast<float>(i)) - 2.5f + by,
+                           .25f * (static_cast<float>(n / 25) + .9f * static_cast<float>(j)) - 2.5f + by, by);
+            });
+        return maker;
+    };
+    const GridMaker first = wall_of_quads(0), second = wall_of_quads(3), fewer = wall_of_quads(5, 480),
+                    endless = wall_of_quads(2e38f);
+    std::vector<uint32_t> changed;
+    for (uint32_t n = 3; n < 500; n += 10) changed.push_back(n);
+    InsertionTree told({.passes = 1}), untold({.passes = 1});
+    told.build(first.grids()), untold.build(first.grids());
+    told.update(second.grids(), changed), untold.update(second.grids());
+    EXPECT_EQ(told.moved(), 57u);  // 50 grids, of which 7 have two micropolygons
+    EXPECT_EQ(untold.moved(), 57u);
+    EXPECT_EQ(told.contradiction(), "");
+    EXPECT_EQ(told.expected_visits(), untold.expected_visits());
+    EXPECT_EQ(testing::differing_rays(second, told, 300, 20), 0);
+    told.update(first.grids(), std::vector<uint32_t>{13});
+    EXPECT_EQ(told.moved(), 1u);
+    // What has other objects, or objects without bounds, is read whole.
+    told.update(fewer.grids(), std::vector<uint32_t>{0});
+    EXPECT_EQ(told.contradiction(), "");
+    EXPECT_EQ(testing::differing_rays(fewer, told, 200, 20), 0);
+    told.build(first.grids());
+    told.update(endless.grids(), changed);
+    EXPECT_EQ(testing::differing_rays(endless, told, 200, 0), 0);
+}
+
 TEST(InsertionTree, OfAFrameAsItWasMovesNothing) {
     const GridMaker maker = drifting_frame(3), same = drifting_frame(3);
     InsertionTree tree;

@@ -53,7 +53,8 @@ ShutterExtent boxes_of_shutter(const Grid& grid, KeyBox* boxes) {
 void FrameBoxes::read(const Grids& frame) {
     grids = &frame;
     const size_t count = frame.grids.size();
-    std::vector<uint32_t> first(count + 1, 0);
+    std::vector<uint32_t>& first = first_;
+    first.assign(count + 1, 0);
     for (size_t g = 0; g < count; ++g)
         first[g + 1] = first[g] + static_cast<uint32_t>(frame.grids[g].shape.micropolygon_count());
     boxes.resize(first[count]);
@@ -86,6 +87,30 @@ void FrameBoxes::read(const Grids& frame) {
     }
     ids.resize(kept);
     boxes.resize(kept);
+}
+
+bool FrameBoxes::reread(const Grids& frame, std::span<const uint32_t> changed) {
+    if (!grids || frame.grids.size() + 1 != first_.size() || !unbounded.empty()) return false;
+    std::vector<KeyBox> fresh;
+    std::vector<ShutterExtent> extents;
+    for (const uint32_t g : changed) {
+        const Grid& grid = frame.grids[g];
+        const auto count = static_cast<uint32_t>(grid.shape.micropolygon_count());
+        if (first_[g + 1] - first_[g] != count) return false;
+        fresh.resize(fresh.size() + count);
+        const ShutterExtent extent = boxes_of_shutter(grid, fresh.data() + fresh.size() - count);
+        if (!std::isfinite(extent.absolute_max)) return false;
+        extents.push_back(extent);
+    }
+    grids = &frame;
+    const KeyBox* from = fresh.data();
+    for (const uint32_t g : changed)
+        for (uint32_t object = first_[g]; object < first_[g + 1]; ++object) boxes[object] = *from++;
+    for (const ShutterExtent& extent : extents) {
+        absolute_max = std::max(absolute_max, extent.absolute_max);
+        quad_extent = std::max(quad_extent, extent.quad_extent);
+    }
+    return true;
 }
 
 KeyBox empty_box() {

@@ -24,10 +24,16 @@ struct FrameBoxes {
 
     /// Reads a frame, in parallel. Keeps a reference to the grids.
     void read(const Grids& frame);
+    /// Reads a frame that differs from the one before in these grids alone, by number: in time linear in
+    /// them. False, with nothing changed, where it has other objects, or some that are none: read it all. The
+    /// extents are then at least those of the frame.
+    bool reread(const Grids& frame, std::span<const uint32_t> changed);
+    /// The objects of a grid, from the first on; where nothing is unbounded.
+    uint32_t first_of(uint32_t grid) const { return first_[grid]; }
 
     size_t bytes() const {
         return (ids.capacity() + unbounded.capacity()) * sizeof(MicropolygonId) +
-               boxes.capacity() * sizeof(KeyBox);
+               boxes.capacity() * sizeof(KeyBox) + first_.capacity() * sizeof(uint32_t);
     }
 
     template <class Policy>
@@ -39,6 +45,9 @@ struct FrameBoxes {
         for (const MicropolygonId& id : unbounded)
             test_micropolygon(grids->grids[id.grid], id, ray, policy, stats);
     }
+
+  private:
+    std::vector<uint32_t> first_;  ///< micropolygons before each grid's, and all
 };
 
 /// Empty: it holds nothing, and joined with another it is that.

@@ -59,9 +59,21 @@ void InsertionTree::update(const Grids& grids) {
         return;
     }
     moved_ = dissolved_ = 0;
-    for (uint32_t object = 0; object < count; ++object)
-        if (!same_box(nodes_[object].box, objects_.boxes[object])) move(object, objects_.boxes[object]);
+    for (uint32_t object = 0; object < count; ++object) move_if_changed(object);
     dissolve_thinned();
+}
+
+void InsertionTree::update(const Grids& grids, std::span<const uint32_t> changed) {
+    if (!objects_.reread(grids, changed)) return update(grids);
+    moved_ = dissolved_ = 0;
+    for (const uint32_t grid : changed)
+        for (uint32_t object = objects_.first_of(grid); object < objects_.first_of(grid + 1); ++object)
+            move_if_changed(object);
+    dissolve_thinned();
+}
+
+void InsertionTree::move_if_changed(uint32_t object) {
+    if (!same_box(nodes_[object].box, objects_.boxes[object])) move(object, objects_.boxes[object]);
 }
 
 void InsertionTree::move(uint32_t object, const KeyBox& box) {

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,9 @@ class InsertionTree {
     /// Moves the objects whose boxes have changed: each climbs to the nearest ancestor that holds its new
     /// box, and is inserted again from there (algorithm 1). A frame with another number of objects is built.
     void update(const Grids& grids);
+    /// The same where only these grids, by number, differ from the frame before: in time linear in what
+    /// moves.
+    void update(const Grids& grids, std::span<const uint32_t> changed);
 
     /// Shows the policy the hits of a ray, near ones first as far as boxes tell.
     template <class Policy>
@@ -78,6 +82,7 @@ class InsertionTree {
     void insert_all();
     std::vector<uint32_t> insertion_order() const;
     void reset();
+    void move_if_changed(uint32_t object);
     void move(uint32_t object, const KeyBox& box);
     void dissolve_thinned();
     void dissolve(uint32_t node);

@@ -20,6 +20,7 @@ set(TRAPEZE_PLUGIN_HEADERS
     core/scene/shapes.h
     core/scene/user_values.h
     core/stats.h
+    sample/build_memory.h
     sample/hit_lists.h
     sample/loose_hits.h
     sample/names/method_spec.h

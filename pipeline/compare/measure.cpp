@@ -1,5 +1,6 @@
 #include "pipeline/compare/measure.h"
 
+#include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
@@ -25,6 +26,19 @@ std::string pattern_name(const MethodSpec& pattern) {
     return spec_text(pattern, find_named(sample_patterns(), pattern.name)->options);
 }
 
+/// Says which methods may take more than the budget, before they do.
+void tell_of_memory(const SharedFrame& frame, const std::vector<Sampler>& samplers) {
+    for (const Sampler& sampler : samplers) {
+        const size_t bytes = frame.grids.bytes() + sampler.build_memory().bytes(frame.grids);
+        if (bytes <= frame.memory_budget) continue;
+        frame.context.diagnostics->warning(
+            {},
+            fmt::format("{} may take {} MiB with its grids while it is built, more than the budget of {} MiB",
+                        sampler.name(), bytes >> 20, frame.memory_budget >> 20),
+            kTooLittleMemory);
+    }
+}
+
 /// All methods at one sample rate.
 class RateRun {
   public:
@@ -32,7 +46,8 @@ class RateRun {
             const MeasureSettings& settings)
         : frame_(frame),
           context_(frame.context_at(rate)),
-          bytes_each_(settings.sample_bytes / std::max<size_t>(1, samplers.size())) {
+          bytes_each_(settings.sample_bytes / std::max<size_t>(1, samplers.size())),
+          longest_turn_(settings.longest_turn) {
         for (const Sampler& sampler : samplers) {
             const MethodResult& result = add(sampler, rate);
             auto& pattern = patterns_[result.pattern];
@@ -46,6 +61,12 @@ class RateRun {
     }
 
     size_t turns() const { return results_.size(); }
+    /// Whether a method's last turn took longer than one may.
+    bool is_too_slow(size_t method) const {
+        const MethodResult& result = results_[method];
+        return longest_turn_ > 0 && !result.build_seconds.empty() &&
+               result.build_seconds.back() + result.resolve_seconds.back() > longest_turn_;
+    }
     void take_turn(size_t method) {
         MethodResult& result = results_[method];
         if (result.variance > 0) return take_adaptive_turn(result);
@@ -127,6 +148,7 @@ class RateRun {
     const SharedFrame& frame_;
     RenderContext context_;
     size_t bytes_each_;
+    double longest_turn_;
     std::vector<MethodResult> results_;
     std::map<std::string, std::unique_ptr<SamplePattern>> patterns_;
     std::map<std::pair<std::string, int>, SampleGroups> groups_;
@@ -160,12 +182,13 @@ MethodResult::Spread MethodResult::total_spread() const {
 
 std::vector<MethodResult> measure(const SharedFrame& frame, const std::vector<Sampler>& samplers,
                                   const std::vector<SampleRate>& rates, const MeasureSettings& settings) {
+    tell_of_memory(frame, samplers);
     std::vector<MethodResult> all;
     for (size_t r = 0; r < rates.size(); ++r) {
         RateRun run(frame, samplers, rates[r], settings);
         const size_t turns = run.turns() * static_cast<size_t>(settings.rounds);
         for (size_t turn = 0; turn < turns; ++turn) {
-            run.take_turn(turn % run.turns());
+            if (!run.is_too_slow(turn % run.turns())) run.take_turn(turn % run.turns());
             if (frame.context.is_cancelled()) return {};
             const double done = static_cast<double>(turn + 1) / static_cast<double>(turns);
             if (settings.on_progress)

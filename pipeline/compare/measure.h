@@ -63,6 +63,9 @@ struct MeasureSettings {
     std::function<void(double)> on_progress = {};  ///< part done in [0, 1], after every turn
     /// Above 0: the first sampler that can takes adaptive samples, too, as a row of its own.
     float variance = 0;
+    /// A method whose turn took longer, in seconds, takes no other one at that rate: its medians are of fewer
+    /// rounds. 0: nothing is too long.
+    double longest_turn = 0;
 };
 
 /// At each sample rate, `rounds` times: every sampler in turn prepares and resolves the whole picture, with

@@ -110,6 +110,38 @@ TEST(SharedFrame, TooLittleMemoryIsAnErrorThatSaysWhatHelps) {
     EXPECT_NE(shared.messages.find("--memory"), std::string::npos) << shared.messages;
 }
 
+TEST(Measure, AMethodWhoseTurnTookTooLongTakesNoOther) {
+    const SharedScene shared("quadric_sphere.rib");
+    const auto samplers = samplers_of({"raytrace", "raytrace:tree=paper"});
+    MeasureSettings settings;
+    settings.rounds = 3;
+    settings.longest_turn = 1e-12;
+    for (const MethodResult& result : measure(*shared.frame, samplers, {{1, 1}}, settings)) {
+        EXPECT_EQ(result.build_seconds.size(), 1u);
+        EXPECT_EQ(result.resolve_seconds.size(), 1u);
+        EXPECT_GT(result.sample.rays, 0u);
+    }
+    settings.longest_turn = 1e6;
+    for (const MethodResult& result : measure(*shared.frame, samplers, {{1, 1}}, settings))
+        EXPECT_EQ(result.resolve_seconds.size(), 3u);
+}
+
+TEST(Measure, AMethodThatMayTakeTooMuchMemoryIsNamedBefore) {
+    SharedScene shared("quadric_sphere.rib");
+    const SharedFrame& frame = *shared.frame;
+    const auto samplers = samplers_of({"raytrace", "raytrace:tree=mbkd,duplicates=64"});
+    const size_t few = frame.grids.bytes() + samplers[0].build_memory().bytes(frame.grids);
+    shared.frame->memory_budget = few;
+    EXPECT_EQ(measure(frame, samplers, {{1, 1}}, {1}).size(), 2u);
+    EXPECT_EQ(shared.diagnostics.count(Severity::Warning), 1u);
+    EXPECT_EQ(shared.messages.find("tree=wide"), std::string::npos);
+    EXPECT_NE(shared.messages.find("raytrace:tree=mbkd,duplicates=64 may take"), std::string::npos)
+        << shared.messages;
+    shared.frame->memory_budget = few - 1;
+    measure(frame, samplers, {{1, 1}}, {1});
+    EXPECT_EQ(shared.diagnostics.count(Severity::Warning), 3u);
+}
+
 TEST(ResultsJson, HasWhatTheResultSays) {
     const SharedScene shared("quadric_sphere.rib");
     const auto results = measure(*shared.frame, samplers_of({"raytrace"}), {{2, 2}}, {3});

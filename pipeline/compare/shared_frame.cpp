@@ -82,6 +82,7 @@ std::optional<SharedFrame> share_frame(Scene&& scene, const RenderSettings& sett
     shading.report_displacement_bounds();
     frame.stats = recorder.finish(frame.context);
     frame.stats.grid_bytes = frame.grids.bytes();
+    frame.memory_budget = budget;
     return frame;
 }
 

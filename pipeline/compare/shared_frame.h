@@ -24,7 +24,8 @@ struct SharedFrame {
     RenderContext context;  ///< of that scene, at the scene's own sample rate
     PixelRect pixels;       ///< those whose samples count: the crop and what the filter reaches
     Grids grids;
-    FrameStats stats;  ///< of tessellation and shading
+    FrameStats stats;                   ///< of tessellation and shading
+    size_t memory_budget = ~size_t{0};  ///< in bytes, for grids and what a method makes of them
 
     /// The context at another sample rate. What is diced and shaded depends on no sample rate, so the grids
     /// serve every one.

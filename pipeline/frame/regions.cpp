@@ -8,10 +8,6 @@
 namespace trapeze {
 namespace {
 
-/// Bytes of the tree in its paper form, measured for full grids; small grids carry more overhead each.
-constexpr size_t kTreeBytesPerMicropolygon = 20;
-constexpr size_t kTreeBytesPerGrid = 256;
-
 /// The next multiple of `side` at or below a pixel, which may be negative.
 int floor_to(int pixel, int side) {
     const int rest = ((pixel % side) + side) % side;
@@ -21,12 +17,12 @@ int floor_to(int pixel, int side) {
 /// The part of a region in a rectangle: the subpatches that it may see, and the memory for these.
 Region part_of(const Region& whole, const PixelRect& pixels, std::span<const SubpatchInfo> subpatches,
                const RegionLimits& limits) {
-    Region part{pixels, {}, 0};
+    Region part{pixels, {}, limits.build.fixed};
     for (const uint32_t index : whole.subpatches) {
         const PixelRect seen = intersection(subpatches[index].bound, pixels);
         if (seen.empty() || (limits.awaited && !limits.awaited->meet(seen))) continue;
         part.subpatches.push_back(index);
-        part.estimated_bytes += estimated_bytes(subpatches[index], limits.aov_channels);
+        part.estimated_bytes += estimated_bytes(subpatches[index], limits);
     }
     return part;
 }
@@ -59,14 +55,14 @@ bool can_split(const PixelRect& r) {
 
 }  // namespace
 
-size_t estimated_bytes(const SubpatchInfo& subpatch, int aov_channels) {
+size_t estimated_bytes(const SubpatchInfo& subpatch, const RegionLimits& limits) {
     Grid grid;
     grid.shape = subpatch.shape;
     grid.key_count = subpatch.key_count;
     grid.opaque = false;
-    grid.aov_channels = static_cast<uint8_t>(aov_channels);
-    return grid.bytes() + 2 * 64 /* alignment of its two arrays */ + kTreeBytesPerGrid +
-           kTreeBytesPerMicropolygon * grid.shape.micropolygon_count() * std::max(1, grid.key_count - 1);
+    grid.aov_channels = static_cast<uint8_t>(limits.aov_channels);
+    return grid.bytes() + 2 * 64 /* alignment of its two arrays */ +
+           limits.build.bytes(static_cast<size_t>(grid.shape.micropolygon_count()), grid.key_count);
 }
 
 std::vector<Region> split_into_regions(const PixelRect& pixels, std::span<const SubpatchInfo> subpatches,

@@ -10,6 +10,7 @@
 #include "core/samples.h"
 #include "core/scene/camera.h"
 #include "core/scene/vertex_set.h"
+#include "sample/build_memory.h"
 #include "tessellate/tessellate.h"
 
 namespace trapeze {
@@ -31,10 +32,11 @@ struct RegionLimits {
     int aov_channels = 0;  ///< that every vertex carries besides its colour
     /// Tiles that are wanted: others and what is seen in them alone are left out; null: all are.
     const AwaitedTiles* awaited = nullptr;
+    BuildMemory build{};  ///< of the visibility method
 };
 
 /// Upper estimate, in bytes, of the memory of a subpatch's grid and its part of the tree.
-size_t estimated_bytes(const SubpatchInfo& subpatch, int aov_channels);
+size_t estimated_bytes(const SubpatchInfo& subpatch, const RegionLimits& limits);
 
 /// Splits `pixels`, or the part of them that is awaited, along tile borders, the longer side first, until
 /// every region fits or is a single tile.

@@ -57,6 +57,29 @@ TEST(Regions, SplitUntilTheyFitTheBudget) {
     for (const Region& region : regions) EXPECT_LE(region.estimated_bytes, whole / 4);
 }
 
+/// A method that takes more has smaller regions.
+TEST(Regions, WhatTheMethodTakesCounts) {
+    const auto infos = scattered_subpatches(2000);
+    const PixelRect pixels{0, 0, 320, 200};
+    const auto region_with = [&](const BuildMemory& build) {
+        return split_into_regions(pixels, infos, {.bytes = ~size_t{0}, .build = build})[0];
+    };
+    const auto whole_with = [&](const BuildMemory& build) { return region_with(build).estimated_bytes; };
+    const std::vector<uint32_t> seen = region_with({}).subpatches;
+    size_t micropolygons = 0, segments = 0;
+    for (const uint32_t index : seen) {
+        const SubpatchInfo& info = infos[index];
+        const auto count = static_cast<size_t>(info.shape.micropolygon_count());
+        micropolygons += count;
+        segments += count * static_cast<size_t>(std::max(1, info.key_count - 1));
+    }
+    const size_t nothing = whole_with({0, 0, 0, 0});
+    EXPECT_EQ(whole_with({3, 5, 7, 11}) - nothing, 3 * micropolygons + 5 * segments + 7 * seen.size() + 11);
+    const size_t budget = whole_with({});
+    EXPECT_EQ(split_into_regions(pixels, infos, {.bytes = budget}).size(), 1u);
+    EXPECT_GT(split_into_regions(pixels, infos, {.bytes = budget, .build = {2000, 0, 0, 0}}).size(), 1u);
+}
+
 TEST(Regions, AnImpossibleBudgetEndsAtSingleTiles) {
     const auto infos = scattered_subpatches(50);
     const auto regions = split_into_regions({0, 0, 64, 64}, infos, {0, 1});
@@ -80,7 +103,8 @@ TEST(Regions, VariablesOfVerticesCountInTheEstimate) {
     SubpatchInfo subpatch;
     subpatch.shape = {16, 16};
     subpatch.key_count = 1;
-    EXPECT_EQ(estimated_bytes(subpatch, 5) - estimated_bytes(subpatch, 0), 5u * 17 * 17 * sizeof(float));
+    EXPECT_EQ(estimated_bytes(subpatch, {.aov_channels = 5}) - estimated_bytes(subpatch, {}),
+              5u * 17 * 17 * sizeof(float));
 }
 
 }  // namespace

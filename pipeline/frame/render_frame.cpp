@@ -45,13 +45,13 @@ size_t machine_memory() {
     return static_cast<size_t>(pages) * static_cast<size_t>(page_bytes);
 }
 
-/// Warns of a region that takes more than the budget: its estimate was too low, or it is a single tile.
+/// Warns of a region that may take more than the budget, before it does: it is a single tile.
 void check_memory(const RenderContext& context, const PixelRect& pixels, size_t used, size_t budget) {
     if (used <= budget) return;
     const auto mib = [](size_t bytes) { return std::to_string(bytes >> 20) + " MiB"; };
     context.diagnostics->warning({},
                                  "a region of " + std::to_string(pixels.width()) + "x" +
-                                     std::to_string(pixels.height()) + " pixels takes " + mib(used) +
+                                     std::to_string(pixels.height()) + " pixels may take " + mib(used) +
                                      " for grids and tree, more than the budget of " + mib(budget),
                                  "memory-budget");
 }
@@ -97,11 +97,12 @@ FilmKeeper* keeper_of(const RenderSettings& settings, const Shading& shading) {
 void sample_region(const Frame& frame, const PixelRect& pixels, const Grids& grids, FrameRecorder& recorder,
                    Film& film) {
     recorder.begin_build();
+    check_memory(frame.context, pixels, grids.bytes() + frame.sampler.build_memory().bytes(grids),
+                 frame.memory_budget);
     const std::unique_ptr<Visibility> visibility =
         recorder.timed(&StageSeconds::build, [&] { return frame.sampler.prepare(frame.context, grids); });
     const BuildStats build = visibility->build_stats();
     recorder.built(grids.bytes(), build);
-    check_memory(frame.context, pixels, grids.bytes() + build.tree_bytes, frame.memory_budget);
 
     const bool adaptive = frame.pattern.levels() != nullptr;
     recorder.begin_tiles(tiles_of(pixels, adaptive ? kTileSide : visibility->tile_side()).size());
@@ -136,9 +137,9 @@ bool add_regions(const Frame& frame, const std::vector<Region>& regions, FrameRe
 std::vector<Region> regions_of(const Frame& frame, const Film& film) {
     const Options& options = frame.context.scene->options;
     const AwaitedTiles awaited = film.awaited_tiles();
-    return split_into_regions(
-        sampled_pixels(frame.context.camera, options), frame.tessellation.subpatches(),
-        {frame.memory_budget, frame.regions_at_least, aov_layout(options).channel_count, &awaited});
+    return split_into_regions(sampled_pixels(frame.context.camera, options), frame.tessellation.subpatches(),
+                              {frame.memory_budget, frame.regions_at_least, aov_layout(options).channel_count,
+                               &awaited, frame.sampler.build_memory()});
 }
 
 /// Whoever may read the film while regions are added to it: no longer than that, even where memory runs out.

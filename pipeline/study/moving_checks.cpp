@@ -82,20 +82,23 @@ StudyCheck check_of_refitting(const std::string& scene, std::span<const double> 
 }
 
 std::vector<StudyCheck> checks_of_updates(const std::string& scene, const paper::SequenceCosts (&here)[3],
-                                          const paper::SequenceCosts (&paper)[3]) {
+                                          const paper::SequenceClaims& report) {
     enum { kAnew, kDynamic, kLoose };
     const auto update = [](const paper::SequenceCosts& costs) { return costs.update; };
+    std::vector<StudyCheck> checks;
     const auto check = [&](const std::string& claim, double (*cost)(const paper::SequenceCosts&), size_t row,
                            double least) {
+        if (!(least > 0)) return;
         const double of_here = cost(here[kAnew]) / cost(here[row]),
-                     of_paper = cost(paper[kAnew]) / cost(paper[row]);
-        return StudyCheck{fmt::format("{}: {} (at least {}x)", scene, claim, number_text(least)),
-                          number_text(of_paper) + "x", number_text(of_here) + "x", of_here >= least};
+                     of_paper = cost(report.costs[kAnew]) / cost(report.costs[row]);
+        checks.push_back({fmt::format("{}: {} (at least {}x)", scene, claim, number_text(least)),
+                          number_text(of_paper) + "x", number_text(of_here) + "x", of_here >= least});
     };
-    return {check("updating is faster than inserting all anew", update, kDynamic, 4),
-            check("the loose tree is made faster than that", update, kLoose, 9),
-            check("updated, a frame's total is less", total, kDynamic, 1.5),
-            check("loose, a frame's total is less", total, kLoose, 5)};
+    check("updating is faster than inserting all anew", update, kDynamic, report.least_dynamic_update);
+    check("the loose tree is made faster than that", update, kLoose, report.least_loose_update);
+    check("updated, a frame's total is less", total, kDynamic, report.least_dynamic_total);
+    check("loose, a frame's total is less", total, kLoose, report.least_loose_total);
+    return checks;
 }
 
 }  // namespace trapeze

@@ -33,8 +33,8 @@ std::vector<StudyCheck> checks_of_kd_variants(const std::string& scene, const Kd
 StudyCheck check_of_refitting(const std::string& scene, std::span<const double> refitted,
                               std::span<const double> rebuilt);
 
-/// Checks what updates gain over inserting all anew each frame. Costs are in the order of paper::kFalling.
+/// Checks what updates gain over inserting all anew each frame. Costs are in the order of the report's.
 std::vector<StudyCheck> checks_of_updates(const std::string& scene, const paper::SequenceCosts (&here)[3],
-                                          const paper::SequenceCosts (&paper)[3]);
+                                          const paper::SequenceClaims& report);
 
 }  // namespace trapeze

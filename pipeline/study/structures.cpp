@@ -13,9 +13,11 @@
 namespace trapeze {
 namespace {
 
-/// A tree that took longer, to be built or for its rays, has no part in the same scene with more blur or more
-/// micropolygons: it would take hours.
-constexpr double kLongest = 60, kLongestQuick = 10;
+/// A tree that took longer, to be built and for its rays, takes no other turn in that scene, and has no part
+/// in the same scene with more blur or more micropolygons: it would take hours.
+double longest_turn(const StudyBench& bench) {
+    return bench.quick() ? 10 : 60;
+}
 
 struct Blur {
     const char* name;
@@ -62,7 +64,7 @@ StructureRun run_structures(StudyBench& bench, const StructureScene& scene, cons
     for (const std::string& tree : trees) methods += "raytrace:tree=" + tree + " ";
     const SampleRate rate = bench.quick() ? SampleRate{1, 1} : SampleRate{2, 2};
     StructureRun run{scene.label, blur.name, 0, {}};
-    const auto results = bench.measure(frame, made, methods, {rate});
+    const auto results = bench.measure(frame, made, methods, {rate}, longest_turn(bench));
     for (size_t i = 0; i < results.size(); ++i) {
         const MethodResult& m = results[i];
         run.rays_per_micropolygon = static_cast<double>(m.sample.rays) / static_cast<double>(m.micropolygons);
@@ -89,7 +91,7 @@ StudyTable table_of(const StructureRun& run, const StudySceneFacts& facts) {
 void leave_slow_ones(const StudyBench& bench, const StructureRun& run, std::vector<std::string>& trees,
                      StudyResult& result) {
     for (const StructureCosts& tree : run.trees) {
-        if (tree.total() <= (bench.quick() ? kLongestQuick : kLongest)) continue;
+        if (tree.total() <= longest_turn(bench)) continue;
         std::erase(trees, tree.tree);
         result.notes.push_back(
             fmt::format("{} took {} on {}, {}, of {} micropolygons, and has no part in what follows of "

@@ -14,9 +14,10 @@
 namespace trapeze {
 
 struct StudySettings {
-    bool quick = false;       ///< a quarter of the pixels, fewer samples: minutes instead of hours
-    int rounds = 3;           ///< in which every method takes its turn; medians count
-    size_t memory_bytes = 0;  ///< for grids; 0: three quarters of the machine's
+    bool quick = false;            ///< a quarter of the pixels, fewer samples: minutes instead of hours
+    int rounds = 3;                ///< in which every method takes its turn; medians count
+    size_t memory_bytes = 0;       ///< for grids; 0: three quarters of the machine's
+    std::string bart_folder = {};  ///< that has kitchen/aff and museum/aff; empty: they are not to be had
     const std::atomic<bool>* cancelled = nullptr;
     std::function<void(const std::string& what)> on_stage = {};
     std::function<void(double)> on_progress = {};  ///< of the stage

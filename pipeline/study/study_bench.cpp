@@ -112,9 +112,18 @@ SharedFrame StudyBench::frame(const StudyScene& scene) {
     return std::move(*frame);
 }
 
+std::pair<std::unique_ptr<const Scene>, RenderContext> StudyBench::empty_scene(const std::string& rib) {
+    std::unique_ptr<const Scene> scene;
+    read_rib_text(rib, "options", ReadOptions{}, diagnostics_,
+                  [&](Scene&& world) { scene = std::make_unique<const Scene>(std::move(world)); });
+    if (!scene) throw StudyStopped();
+    RenderContext context = make_context(*scene, render_settings(), diagnostics_);
+    return {std::move(scene), std::move(context)};
+}
+
 std::vector<MethodResult> StudyBench::measure(const SharedFrame& frame, const StudyScene& scene,
                                               const std::string& methods,
-                                              const std::vector<SampleRate>& rates) {
+                                              const std::vector<SampleRate>& rates, double longest_turn) {
     stage("sampling " + scene.label);
     std::string error;
     const auto samplers = parse_samplers(methods, "", &error);
@@ -125,6 +134,7 @@ std::vector<MethodResult> StudyBench::measure(const SharedFrame& frame, const St
     MeasureSettings settings;
     settings.rounds = settings_.rounds;
     settings.on_progress = settings_.on_progress;
+    settings.longest_turn = longest_turn;
     auto results = trapeze::measure(frame, *samplers, rates, settings);
     if (results.empty()) throw StudyStopped();
     for (const MethodResult& result : results) {

@@ -1,7 +1,9 @@
 /// What studies work with: scenes made to measure, and times and counts of methods on them.
 #pragma once
 
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pipeline/compare/measure.h"
@@ -29,6 +31,7 @@ class StudyBench {
 
     int rounds() const { return settings_.rounds; }
     bool quick() const { return settings_.quick; }
+    const std::string& bart_folder() const { return settings_.bart_folder; }
     /// The rate of pictures that the paper supersamples 13x13 or finer.
     SampleRate reference_rate() const { return settings_.quick ? SampleRate{8, 8} : SampleRate{13, 13}; }
 
@@ -41,12 +44,16 @@ class StudyBench {
     /// Renders the scene to a picture, which is let go, by ray tracing; the total is from its text on. Its
     /// facts have no blur.
     FrameStats render(const StudyScene& scene, const SampleRate& rate);
+    /// The context of a text that has options alone; and what it is the context of.
+    std::pair<std::unique_ptr<const Scene>, RenderContext> empty_scene(const std::string& rib);
     /// The facts of the scene that frame() or render() made last.
     const StudySceneFacts& last_facts() const { return result_.scenes.back(); }
 
     /// Measures methods, which are separated by spaces; the results are by rate, then by method.
+    /// `longest_turn`: as MeasureSettings has it.
     std::vector<MethodResult> measure(const SharedFrame& frame, const StudyScene& scene,
-                                      const std::string& methods, const std::vector<SampleRate>& rates);
+                                      const std::string& methods, const std::vector<SampleRate>& rates,
+                                      double longest_turn = 0);
 
     /// Who watches the part of a stage that is done; may be empty.
     const std::function<void(double)>& on_progress() const { return settings_.on_progress; }

@@ -133,10 +133,12 @@ class BinaryRayTraced final : public Visibility {
 
     BuildStats build_stats() const override { return tree_.stats(); }
 
-    bool update(const Grids& grids) override {
+    bool update(const Grids& grids, const std::vector<uint32_t>* changed) override {
         if (!updates_) return false;
         if constexpr (std::is_same_v<Tree, MovingTree>)
             tree_.refit(grids);
+        else if constexpr (std::is_same_v<Tree, InsertionTree>)
+            changed ? tree_.update(grids, *changed) : tree_.update(grids);
         else if constexpr (requires { tree_.update(grids); })
             tree_.update(grids);
         all_opaque_ = every_grid_is_opaque(grids);

@@ -20,6 +20,7 @@ namespace {
 std::vector<RecordedOption> study_options(const Arguments& arguments) {
     std::vector<RecordedOption> options = {{"repeat", {std::to_string(arguments.study.rounds)}}};
     if (arguments.study.quick) options.push_back({"quick", {}});
+    if (!arguments.study.bart.empty()) options.push_back({"bart", {arguments.study.bart}});
     return options;
 }
 
@@ -29,6 +30,7 @@ std::optional<StudyResult> run(const Arguments& arguments, const Interrupt& inte
     settings.quick = arguments.study.quick;
     settings.rounds = arguments.study.rounds;
     settings.memory_bytes = arguments.memory_bytes;
+    settings.bart_folder = arguments.study.bart;
     settings.cancelled = &interrupt.requested();
     settings.on_stage = [&](const std::string& what) {
         terminal.begin_progress(what, {arguments.study.name, what});

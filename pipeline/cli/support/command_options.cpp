@@ -416,6 +416,10 @@ void add_study_options(CLI::App& app, Arguments& a) {
         ->check(CLI::IsMember(known))
         ->type_name("NAME");
     app.add_flag("--quick", s.quick, "a quarter of the pixels and fewer samples: minutes instead of an hour");
+    add_file(app, "--bart", s.bart,
+             "the folder of the Benchmark for Animated Ray Tracing, with kitchen/aff and museum/aff: dynamic "
+             "follows them, too",
+             "DIR");
     add_rounds_option(app, s.rounds);
     add_figure_options(app, s.report, "writes a report with tables, plots and checks, one file", s.json,
                        s.csv);
