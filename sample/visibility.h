@@ -38,6 +38,14 @@ class Visibility {
         return false;
     }
 
+    /// Whether rays in any direction (core/ray_query.h) meet anything within a range of depths: a byte each,
+    /// 1 or 0, in `met`, which has a place for each. False, with nothing written, where the method takes none
+    /// but the camera's. May be called from many threads at once.
+    virtual bool occluded(std::span<const SpaceRay> /*rays*/, DepthRange /*range*/,
+                          std::span<uint8_t> /*met*/, SampleStats& /*stats*/) const {
+        return false;
+    }
+
     /// Whether resolve() takes as long for a part of the samples' lists as for the whole: then few samples at
     /// a time are to be looked at, of which nothing is left for another pass.
     virtual bool walks_whole_lists() const { return false; }

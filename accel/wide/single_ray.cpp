@@ -27,13 +27,13 @@ struct Query {
 struct CountNothing {
     void node() {}
     void grid() {}
-    void block() {}
+    void block(int) {}
 };
 struct CountAll {
     SingleRayCounts& counts;
     void node() { ++counts.nodes; }
     void grid() { ++counts.grids; }
-    void block() { ++counts.blocks; }
+    void block(int tests) { ++counts.blocks, counts.tests += static_cast<uint64_t>(tests); }
 };
 
 /// Where numbers of blocks are divided by blocks along u: up to 16 by up to 4, as n * kSixtyFourths >> 6.
@@ -233,9 +233,9 @@ class SingleRay {
     template <bool kGridMoves>
     HWY_INLINE void visit_block(uint32_t index, const WideGrid& grid, int segment, int number) {
         const F32 d;
-        counts_.block();
         const int blocks_u = grid.blocks_u(), v = number * kSixtyFourths[blocks_u] >> 6;
         const Block block = block_of(grid, segment, number - v * blocks_u, v, index);
+        counts_.block(block.view.rows * block.columns);
         const Facing facing = facing_along(block.facing, ray_.sign);
         for (int m = 0; m < 4 * block.view.rows; m += static_cast<int>(kLanes)) {
             VF z = hn::Zero(d);

@@ -10,9 +10,9 @@
 namespace trapeze {
 
 /// What rays looked at: nodes above grids, grids' boxes (all of a grid at once), blocks of 4 x 4
-/// micropolygons.
+/// micropolygons, of which those that are there are tested.
 struct SingleRayCounts {
-    uint64_t nodes = 0, grids = 0, blocks = 0;
+    uint64_t nodes = 0, grids = 0, blocks = 0, tests = 0;
 };
 
 /// What RayQuery::closest() and any() say. `counts`, unless null, is added to.

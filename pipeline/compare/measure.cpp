@@ -5,8 +5,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <map>
 
+#include "pipeline/compare/occlusion_rays.h"
 #include "pipeline/compare/sample_groups.h"
 #include "pipeline/frame/resolve_tiles.h"
 #include "pipeline/frame/stopwatch.h"
@@ -48,6 +51,7 @@ class RateRun {
           context_(frame.context_at(rate)),
           bytes_each_(settings.sample_bytes / std::max<size_t>(1, samplers.size())),
           longest_turn_(settings.longest_turn) {
+        if (settings.occlusion) occlusion_rays_ = occlusion_rays(frame, rate, bytes_each_);
         for (const Sampler& sampler : samplers) {
             const MethodResult& result = add(sampler, rate);
             auto& pattern = patterns_[result.pattern];
@@ -97,6 +101,7 @@ class RateRun {
             result.sample += resolver.stats;
             result.hits += resolver.hit_count;
         }
+        if (!occlusion_rays_.empty()) trace_occlusion(*visibility, result);
     }
 
     std::vector<MethodResult>& results() { return results_; }
@@ -120,6 +125,38 @@ class RateRun {
         result.build = visibility->build_stats();
         result.build_seconds.push_back(prepared - result.build.setup_seconds);
         return visibility;
+    }
+
+    /// In runs of so many rays as tiles have samples.
+    void trace_occlusion(const Visibility& visibility, MethodResult& result) const {
+        constexpr size_t kRun = 4096;
+        struct Counts {
+            SampleStats stats;
+            uint64_t met = 0;
+        };
+        tbb::enumerable_thread_specific<Counts> counts;
+        std::atomic<bool> takes_them = true;
+        const std::span<const SpaceRay> all = occlusion_rays_;
+        Stopwatch watch;
+        tbb::parallel_for(
+            size_t{0}, (all.size() + kRun - 1) / kRun,
+            [&](size_t run) {
+                if (context_.is_cancelled() || !takes_them) return;
+                const auto rays = all.subspan(run * kRun, std::min(kRun, all.size() - run * kRun));
+                std::array<uint8_t, kRun> met;
+                Counts& mine = counts.local();
+                if (!visibility.occluded(rays, kOcclusionRange, std::span(met).first(rays.size()),
+                                         mine.stats))
+                    takes_them = false;
+                else
+                    mine.met += static_cast<uint64_t>(std::count(met.begin(), met.begin() + rays.size(), 1));
+            },
+            tbb::simple_partitioner());
+        const double seconds = watch.lap();
+        if (!takes_them) return;
+        result.occlusion_seconds.push_back(seconds);
+        result.occlusion = {}, result.occluded = 0;
+        for (const Counts& c : counts) result.occlusion += c.stats, result.occluded += c.met;
     }
 
     /// As a render has it: where more samples are taken depends on what the film makes of the first ones.
@@ -149,6 +186,7 @@ class RateRun {
     RenderContext context_;
     size_t bytes_each_;
     double longest_turn_;
+    std::vector<SpaceRay> occlusion_rays_;
     std::vector<MethodResult> results_;
     std::map<std::string, std::unique_ptr<SamplePattern>> patterns_;
     std::map<std::pair<std::string, int>, SampleGroups> groups_;

@@ -25,6 +25,11 @@ struct MethodResult {
     BuildStats build;
     SampleStats sample;  ///< counts of one round; every round's are the same
     uint64_t hits = 0;   ///< hits found and kept: up to the first opaque one of each sample
+    /// Occlusion rays (occlusion_rays.h), where they were asked for and the method takes them: wall clock by
+    /// round, counts of one round, and how many rays met something.
+    std::vector<double> occlusion_seconds;
+    SampleStats occlusion;
+    uint64_t occluded = 0;
     uint64_t micropolygons = 0;
     uint64_t pixels = 0;        ///< that samples are of
     int tile_side = kTileSide;  ///< pixels
@@ -32,6 +37,7 @@ struct MethodResult {
     /// Medians, in seconds; the total is the median of the rounds' sums.
     double build_median() const { return median(build_seconds); }
     double resolve_median() const { return median(resolve_seconds); }
+    double occlusion_median() const { return median(occlusion_seconds); }
     double total_median() const;
     /// Least and largest of the rounds' sums of building and resolving, in seconds.
     struct Spread {
@@ -45,6 +51,8 @@ struct MethodResult {
     /// Predicate tests for each one that the predicate answers with yes.
     double tests_per_hit() const { return ratio(sample.predicate_tests, sample.predicate_hits); }
     double nodes_per_sample() const { return ratio(sample.nodes_visited, sample.rays); }
+    double tests_per_occlusion_ray() const { return ratio(occlusion.predicate_tests, occlusion.rays); }
+    double nodes_per_occlusion_ray() const { return ratio(occlusion.nodes_visited, occlusion.rays); }
     double bytes_per_micropolygon() const { return ratio(build.tree_bytes, micropolygons); }
 
   private:
@@ -66,6 +74,8 @@ struct MeasureSettings {
     /// A method whose turn took longer, in seconds, takes no other one at that rate: its medians are of fewer
     /// rounds. 0: nothing is too long.
     double longest_turn = 0;
+    /// Each turn traces occlusion rays, too, after its samples. They are the same for all methods.
+    bool occlusion = false;
 };
 
 /// At each sample rate, `rounds` times: every sampler in turn prepares and resolves the whole picture, with

@@ -1,10 +1,12 @@
 #include "pipeline/compare/measure.h"
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <atomic>
 
 #include "pipeline/compare/compare_harness.h"
+#include "pipeline/compare/occlusion_rays.h"
 #include "pipeline/compare/results_json.h"
 #include "pipeline/compare/sample_groups.h"
 
@@ -31,6 +33,48 @@ TEST(MethodResult, TheTotalIsTheMedianOfTheRoundsSums) {
     EXPECT_EQ(r.total_spread().least, 5);
     EXPECT_EQ(r.total_spread().most, 10);
     EXPECT_EQ(r.tests_per_sample(), 0) << "nothing was sampled";
+}
+
+TEST(Measure, OcclusionRaysMeetTheSameByEveryTree) {
+    const SharedScene shared("defocus_motion.rib");
+    const auto samplers = samplers_of({"raytrace", "interval", "bruteforce", "raytrace:tree=paper",
+                                       "raytrace:tree=msbvh", "raytrace:tree=mbkd"});
+    MeasureSettings settings;
+    settings.rounds = 2;
+    settings.occlusion = true;
+    const auto results = measure(*shared.frame, samplers, {{2, 2}}, settings);
+    ASSERT_EQ(results.size(), samplers.size());
+    const MethodResult& truth = results[2];
+    EXPECT_GT(truth.occlusion.rays, 0u);
+    EXPECT_LE(truth.occlusion.rays, truth.sample.rays);
+    EXPECT_GT(truth.occluded, 0u);
+    EXPECT_LT(truth.occluded, truth.occlusion.rays);
+    for (const MethodResult& r : results) {
+        if (r.method == "interval") {
+            EXPECT_TRUE(r.occlusion_seconds.empty()) << "a rasterizer takes none";
+            EXPECT_FALSE(to_json(r).contains("occlusion_rays"));
+            continue;
+        }
+        EXPECT_EQ(r.occlusion_seconds.size(), 2u) << r.method;
+        EXPECT_EQ(r.occlusion.rays, truth.occlusion.rays) << r.method;
+        EXPECT_EQ(r.occluded, truth.occluded) << r.method;
+        EXPECT_EQ(to_json(r)["occluded"], r.occluded);
+        if (&r == &truth) continue;
+        EXPECT_LT(r.tests_per_occlusion_ray(), truth.tests_per_occlusion_ray()) << r.method;
+    }
+}
+
+TEST(Measure, OcclusionRaysAreAlikeForAnyNumberOfThreads) {
+    const SharedScene shared("defocus_motion.rib");
+    const auto rays = occlusion_rays(*shared.frame, {2, 2}, 1 << 20);
+    tbb::task_arena one(1);
+    const auto again = one.execute([&] { return occlusion_rays(*shared.frame, {2, 2}, 1 << 30); });
+    ASSERT_EQ(rays.size(), again.size());
+    for (size_t i = 0; i < rays.size(); ++i) {
+        EXPECT_EQ(rays[i].origin, again[i].origin);
+        EXPECT_EQ(rays[i].direction, again[i].direction);
+        EXPECT_EQ(rays[i].time, again[i].time);
+    }
 }
 
 TEST(Measure, EveryMethodAtEveryRateInOrder) {

@@ -6,39 +6,46 @@
 namespace trapeze {
 
 nlohmann::ordered_json to_json(const MethodResult& r) {
-    return {{"method", r.method},
-            {"pattern", r.pattern},
-            {"samples_x", r.rate.x},
-            {"samples_y", r.rate.y},
-            {"variance", r.variance},
-            {"samples_per_pixel", r.samples_per_pixel()},
-            {"build_seconds", r.build_median()},
-            {"resolve_seconds", r.resolve_median()},
-            {"total_seconds", r.total_median()},
-            {"total_seconds_least", r.total_spread().least},
-            {"total_seconds_most", r.total_spread().most},
-            {"build_seconds_by_round", r.build_seconds},
-            {"resolve_seconds_by_round", r.resolve_seconds},
-            {"samples", r.sample.rays},
-            {"samples_per_second", r.samples_per_second()},
-            {"hits", r.hits},
-            {"predicate_tests", r.sample.predicate_tests},
-            {"predicate_hits", r.sample.predicate_hits},
-            {"nodes_visited", r.sample.nodes_visited},
-            {"leaves_visited", r.sample.leaves_visited},
-            {"tests_per_sample", r.tests_per_sample()},
-            {"tests_per_hit", r.tests_per_hit()},
-            {"nodes_per_sample", r.nodes_per_sample()},
-            {"tree_bytes", r.build.tree_bytes},
-            {"tree_nodes", r.build.tree_nodes},
-            {"tree_leaves", r.build.tree_leaves},
-            {"tree_references", r.build.tree_references},
-            {"tree_duplicates", r.build.tree_duplicates},
-            {"tree_splits", r.build.tree_splits},
-            {"tree_sah_cost", r.build.tree_sah_cost},
-            {"bytes_per_micropolygon", r.bytes_per_micropolygon()},
-            {"micropolygons", r.micropolygons},
-            {"tile_side", r.tile_side}};
+    nlohmann::ordered_json figures{{"method", r.method},
+                                   {"pattern", r.pattern},
+                                   {"samples_x", r.rate.x},
+                                   {"samples_y", r.rate.y},
+                                   {"variance", r.variance},
+                                   {"samples_per_pixel", r.samples_per_pixel()},
+                                   {"build_seconds", r.build_median()},
+                                   {"resolve_seconds", r.resolve_median()},
+                                   {"total_seconds", r.total_median()},
+                                   {"total_seconds_least", r.total_spread().least},
+                                   {"total_seconds_most", r.total_spread().most},
+                                   {"build_seconds_by_round", r.build_seconds},
+                                   {"resolve_seconds_by_round", r.resolve_seconds},
+                                   {"samples", r.sample.rays},
+                                   {"samples_per_second", r.samples_per_second()},
+                                   {"hits", r.hits},
+                                   {"predicate_tests", r.sample.predicate_tests},
+                                   {"predicate_hits", r.sample.predicate_hits},
+                                   {"nodes_visited", r.sample.nodes_visited},
+                                   {"leaves_visited", r.sample.leaves_visited},
+                                   {"tests_per_sample", r.tests_per_sample()},
+                                   {"tests_per_hit", r.tests_per_hit()},
+                                   {"nodes_per_sample", r.nodes_per_sample()},
+                                   {"tree_bytes", r.build.tree_bytes},
+                                   {"tree_nodes", r.build.tree_nodes},
+                                   {"tree_leaves", r.build.tree_leaves},
+                                   {"tree_references", r.build.tree_references},
+                                   {"tree_duplicates", r.build.tree_duplicates},
+                                   {"tree_splits", r.build.tree_splits},
+                                   {"tree_sah_cost", r.build.tree_sah_cost},
+                                   {"bytes_per_micropolygon", r.bytes_per_micropolygon()},
+                                   {"micropolygons", r.micropolygons},
+                                   {"tile_side", r.tile_side}};
+    if (r.occlusion.rays == 0) return figures;
+    figures["occlusion_seconds"] = r.occlusion_median();
+    figures["occlusion_rays"] = r.occlusion.rays;
+    figures["occluded"] = r.occluded;
+    figures["occlusion_tests"] = r.occlusion.predicate_tests;
+    figures["occlusion_nodes"] = r.occlusion.nodes_visited;
+    return figures;
 }
 
 nlohmann::ordered_json to_json(const Machine& machine) {

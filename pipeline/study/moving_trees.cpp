@@ -51,22 +51,27 @@ std::vector<MovingStudyScene> moving_scenes(const StudyBench& bench) {
     return scenes;
 }
 
+/// Whose costs are set beside a paper's: one ray a sample, or an occlusion ray from where it ends, too.
+enum class RaysThatCount { Camera, CameraAndOcclusion };
+
 /// What was measured on one scene, by row.
 struct MovingRun {
     MovingStudyScene scene;
     std::vector<MethodResult> results;
     std::vector<HeatMap> heat;
+    RaysThatCount rays;
 
     const std::string& label() const { return scene.scene.label; }
 };
 
-MovingRun run_moving_scene(StudyBench& bench, const MovingStudyScene& scene, const TreeRows& rows) {
+MovingRun run_moving_scene(StudyBench& bench, const MovingStudyScene& scene, const TreeRows& rows,
+                           RaysThatCount rays) {
     const SampleRate rate = bench.quick() ? SampleRate{2, 2} : SampleRate{4, 4};
-    MovingRun run{scene, {}, {}};
+    MovingRun run{scene, {}, {}, rays};
     std::string methods;
     for (const TreeRow& row : rows) methods += std::string(row.method) + " ";
     const SharedFrame frame = bench.frame(scene.scene);
-    run.results = bench.measure(frame, scene.scene, methods, {rate});
+    run.results = bench.measure(frame, scene.scene, methods, {rate}, {.occlusion = true});
     bench.stage("heat maps of " + run.label());
     for (const MethodResult& result : run.results) {
         bench.go_on();
@@ -92,7 +97,8 @@ std::string maximum_and_average(const std::vector<float>& map, const std::vector
 StudyTable tree_table(const MovingRun& run, const TreeRows& rows) {
     StudyTable table{run.label(),
                      {"", "references", "duplicates", "nodes", "splits", "SAH cost", "MB", "build", "trace",
-                      "tests a ray", "nodes a ray", "tests a pixel, max / mean", "nodes a pixel, max / mean"},
+                      "tests a ray", "nodes a ray", "tests a pixel, max / mean", "nodes a pixel, max / mean",
+                      "trace occlusion", "tests an occlusion ray", "nodes an occlusion ray"},
                      {}};
     for (size_t r = 0; r < rows.size(); ++r) {
         const MethodResult& m = run.results[r];
@@ -105,7 +111,8 @@ StudyTable tree_table(const MovingRun& run, const TreeRows& rows) {
              number_text(static_cast<double>(m.build.tree_bytes) / 1e6), seconds_text(m.build_median()),
              seconds_text(m.resolve_median()), number_text(m.tests_per_sample()),
              number_text(m.nodes_per_sample()), maximum_and_average(run.heat[r].tests, run.heat[r].samples),
-             maximum_and_average(run.heat[r].nodes, run.heat[r].samples)});
+             maximum_and_average(run.heat[r].nodes, run.heat[r].samples), seconds_text(m.occlusion_median()),
+             number_text(m.tests_per_occlusion_ray()), number_text(m.nodes_per_occlusion_ray())});
     }
     return table;
 }
@@ -114,12 +121,19 @@ StudyTable tree_table(const MovingRun& run, const TreeRows& rows) {
 paper::TreeRatios ratios_of(const MovingRun& run, size_t row) {
     const MethodResult &one = run.results[row], &base = run.results[0];
     const auto of = [](uint64_t a, uint64_t b) { return static_cast<double>(a) / static_cast<double>(b); };
+    const bool both = run.rays == RaysThatCount::CameraAndOcclusion;
+    const auto sum = [&](const MethodResult& m, uint64_t SampleStats::*count) {
+        return m.sample.*count + (both ? m.occlusion.*count : 0);
+    };
+    const auto seconds = [&](const MethodResult& m) {
+        return m.resolve_median() + (both ? m.occlusion_median() : 0);
+    };
     return {
         of(one.build.tree_references, base.build.tree_references),
         of(one.build.tree_nodes, base.build.tree_nodes),
-        one.tests_per_sample() / base.tests_per_sample(),
-        one.nodes_per_sample() / base.nodes_per_sample(),
-        one.resolve_median() / base.resolve_median(),
+        of(sum(one, &SampleStats::predicate_tests), sum(base, &SampleStats::predicate_tests)),
+        of(sum(one, &SampleStats::nodes_visited), sum(base, &SampleStats::nodes_visited)),
+        seconds(one) / seconds(base),
         one.build_median() / base.build_median(),
         of(one.build.tree_bytes, base.build.tree_bytes),
         one.build.tree_sah_cost > 0 ? one.build.tree_sah_cost / base.build.tree_sah_cost : paper::kNoFigure};
@@ -159,22 +173,24 @@ void add_heat(StudyResult& result, MovingRun& run, const TreeRows& rows, const s
     }
 }
 
-void add_moving_notes(const StudyBench& bench, StudyResult& result) {
+void add_moving_notes(const StudyBench& bench, StudyResult& result, RaysThatCount rays) {
     result.notes.push_back(fmt::format(
-        "{} camera rays a pixel and no occlusion rays; a primitive is a micropolygon, of which a large "
-        "ShadingRate makes one of each piece of geometry.",
-        bench.quick() ? 4 : 16));
+        "{} camera rays a pixel, and an occlusion ray from what each of them sees, in a random direction; "
+        "what stands beside the paper's figures is of {}. Most of a pixel is of its camera rays alone.",
+        bench.quick() ? 4 : 16, rays == RaysThatCount::Camera ? "camera rays alone" : "both kinds together"));
+    result.notes.push_back(
+        "A primitive is a micropolygon, of which a large ShadingRate makes one of each piece of geometry.");
     result.notes.push_back(
         "All but the wide tree take rays one by one; the scenes are made, in the kind of the papers'.");
 }
 
 /// Measures the rows on all scenes, and adds what is told of any structure, here that of one row.
 std::vector<MovingRun> run_all(StudyBench& bench, StudyResult& result, const TreeRows& rows, size_t row,
-                               const paper::TreeRatios* of_paper) {
-    add_moving_notes(bench, result);
+                               const paper::TreeRatios* of_paper, RaysThatCount rays) {
+    add_moving_notes(bench, result, rays);
     std::vector<MovingRun> runs;
     for (const MovingStudyScene& scene : moving_scenes(bench))
-        runs.push_back(run_moving_scene(bench, scene, rows));
+        runs.push_back(run_moving_scene(bench, scene, rows, rays));
     for (const MovingRun& run : runs) result.tables.push_back(tree_table(run, rows));
     add_ratios(result, runs, row, rows[row].name, of_paper);
     for (MovingRun& run : runs) add_heat(result, run, rows, {0, row});
@@ -194,7 +210,8 @@ void study_msbvh(StudyBench& bench, StudyResult& result) {
                            {"linear, by Morton codes", "raytrace:tree=lbvh,bundle=off"},
                            kPaperTree,
                            kWideTree};
-    for (const MovingRun& run : run_all(bench, result, rows, 1, paper::kMsbvh))
+    for (const MovingRun& run :
+         run_all(bench, result, rows, 1, paper::kMsbvh, RaysThatCount::CameraAndOcclusion))
         if (run.scene.of_paper != paper::kMovingScenes)
             add_checks(result, checks_of_spatial_splits(run.label(), ratios_of(run, 1),
                                                         paper::kMsbvh[run.scene.of_paper]));
@@ -211,7 +228,7 @@ void study_mbkd(StudyBench& bench, StudyResult& result) {
                            {"MBKD, no mail-box", "raytrace:tree=mbkd,mailbox=off"},
                            kPaperTree,
                            kWideTree};
-    for (const MovingRun& run : run_all(bench, result, rows, kMbkdRow, paper::kMbkd)) {
+    for (const MovingRun& run : run_all(bench, result, rows, kMbkdRow, paper::kMbkd, RaysThatCount::Camera)) {
         if (run.scene.of_paper != paper::kMovingScenes)
             add_checks(result, checks_of_kd_tree(run.label(), ratios_of(run, kMbkdRow),
                                                  ratios_of(run, kMsbvhRow), paper::kMbkd[run.scene.of_paper],

@@ -64,7 +64,7 @@ StructureRun run_structures(StudyBench& bench, const StructureScene& scene, cons
     for (const std::string& tree : trees) methods += "raytrace:tree=" + tree + " ";
     const SampleRate rate = bench.quick() ? SampleRate{1, 1} : SampleRate{2, 2};
     StructureRun run{scene.label, blur.name, 0, {}};
-    const auto results = bench.measure(frame, made, methods, {rate}, longest_turn(bench));
+    const auto results = bench.measure(frame, made, methods, {rate}, {.longest_turn = longest_turn(bench)});
     for (size_t i = 0; i < results.size(); ++i) {
         const MethodResult& m = results[i];
         run.rays_per_micropolygon = static_cast<double>(m.sample.rays) / static_cast<double>(m.micropolygons);

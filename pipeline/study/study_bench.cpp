@@ -123,7 +123,8 @@ std::pair<std::unique_ptr<const Scene>, RenderContext> StudyBench::empty_scene(c
 
 std::vector<MethodResult> StudyBench::measure(const SharedFrame& frame, const StudyScene& scene,
                                               const std::string& methods,
-                                              const std::vector<SampleRate>& rates, double longest_turn) {
+                                              const std::vector<SampleRate>& rates,
+                                              MeasureSettings settings) {
     stage("sampling " + scene.label);
     std::string error;
     const auto samplers = parse_samplers(methods, "", &error);
@@ -131,10 +132,8 @@ std::vector<MethodResult> StudyBench::measure(const SharedFrame& frame, const St
         diagnostics_.error({}, error);
         throw StudyStopped();
     }
-    MeasureSettings settings;
     settings.rounds = settings_.rounds;
     settings.on_progress = settings_.on_progress;
-    settings.longest_turn = longest_turn;
     auto results = trapeze::measure(frame, *samplers, rates, settings);
     if (results.empty()) throw StudyStopped();
     for (const MethodResult& result : results) {

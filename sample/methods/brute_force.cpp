@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "accel/grid_block.h"
+#include "accel/hit_policies.h"
 #include "sample/hit_lists.h"
 #include "sample/methods/moving_quad.h"
 #include "sample/swept_bound.h"
@@ -58,6 +60,26 @@ class BruteForce final : public Visibility {
             buffer_of_nearest(scratch, samples.size(), hits);
         else
             buffer_of_loose_hits(scratch, samples.size(), hits);
+    }
+
+    bool occluded(std::span<const SpaceRay> rays, DepthRange range, std::span<uint8_t> met,
+                  SampleStats& stats) const override {
+        for (size_t i = 0; i < rays.size(); ++i) {
+            TraceRay ray = TraceRay::turned(axis_ray(rays[i]), range);
+            AnyHit policy;
+            for (size_t g = 0; g < grids_.grids.size(); ++g) {
+                const Grid& grid = grids_.grids[g];
+                for (int v = 0; v < grid.shape.nv; ++v)
+                    for (int u = 0; u < grid.shape.nu; ++u) {
+                        const MicropolygonId id{static_cast<uint32_t>(g), static_cast<uint8_t>(u),
+                                                static_cast<uint8_t>(v)};
+                        trapeze::test_micropolygon(grid, id, ray, policy, stats);
+                    }
+            }
+            met[i] = policy.found;
+        }
+        stats.rays += rays.size();
+        return true;
     }
 
   private:

@@ -133,6 +133,19 @@ class BinaryRayTraced final : public Visibility {
 
     BuildStats build_stats() const override { return tree_.stats(); }
 
+    bool occluded(std::span<const SpaceRay> rays, DepthRange range, std::span<uint8_t> met,
+                  SampleStats& stats) const override {
+        SampleStats counted;
+        for (size_t i = 0; i < rays.size(); ++i) {
+            TraceRay ray = TraceRay::turned(axis_ray(rays[i]), range);
+            AnyHit policy;
+            trace(nullptr, ray, policy, counted);
+            met[i] = policy.found;
+        }
+        stats += counted;
+        return true;
+    }
+
     bool update(const Grids& grids, const std::vector<uint32_t>* changed) override {
         if (!updates_) return false;
         if constexpr (std::is_same_v<Tree, MovingTree>)

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "accel/wide/bundle.h"
+#include "accel/wide/single_ray.h"
 #include "sample/hit_lists.h"
 #include "sample/raytrace/tile_order.h"
 
@@ -68,6 +69,16 @@ class WideRayTraced final : public Visibility {
     }
 
     BuildStats build_stats() const override { return tree_.stats(); }
+
+    /// One by one. Nodes are those above grids, and grids.
+    bool occluded(std::span<const SpaceRay> rays, DepthRange range, std::span<uint8_t> met,
+                  SampleStats& stats) const override {
+        SingleRayCounts counts;
+        for (size_t i = 0; i < rays.size(); ++i) met[i] = any_hit(tree_, rays[i], range, &counts);
+        stats.rays += rays.size(), stats.nodes_visited += counts.nodes + counts.grids;
+        stats.leaves_visited += counts.blocks, stats.predicate_tests += counts.tests;
+        return true;
+    }
 
   private:
     /// Traces up to RayBundle::kRays samples, those that `order` lists: writes the nearest opaque hit of
