@@ -75,9 +75,9 @@ progress_of_ninja() {
     done
 }
 
-# As many compilers at once as there are processors: with the two more that ninja starts by itself they are in each
-# other's way, and a build takes a twelfth longer.
 # build FOLDER TARGET...: one short progress line on a terminal; the first failing command's output when it fails.
+# As many compilers at once as there are processors: with the two more that ninja starts by itself they are in each
+# other's way.
 build() {
     local folder=$1 log="$root/build/build.log" status
     shift
