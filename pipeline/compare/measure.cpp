@@ -68,8 +68,9 @@ class RateRun {
     /// Whether a method's last turn took longer than one may.
     bool is_too_slow(size_t method) const {
         const MethodResult& result = results_[method];
-        return longest_turn_ > 0 && !result.build_seconds.empty() &&
-               result.build_seconds.back() + result.resolve_seconds.back() > longest_turn_;
+        if (longest_turn_ <= 0 || result.build_seconds.empty()) return false;
+        const double occlusion = result.occlusion_seconds.empty() ? 0 : result.occlusion_seconds.back();
+        return result.build_seconds.back() + result.resolve_seconds.back() + occlusion > longest_turn_;
     }
     void take_turn(size_t method) {
         MethodResult& result = results_[method];
@@ -127,7 +128,7 @@ class RateRun {
         return visibility;
     }
 
-    /// In runs of so many rays as tiles have samples.
+    /// In runs of some thousand rays, as many as a tile has samples.
     void trace_occlusion(const Visibility& visibility, MethodResult& result) const {
         constexpr size_t kRun = 4096;
         struct Counts {

@@ -2,9 +2,11 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "core/portable_math.h"
 #include "core/random.h"
 #include "pipeline/compare/sample_groups.h"
 #include "sample/visibility.h"
@@ -15,11 +17,11 @@ namespace {
 /// Of the distance to the camera: how far from what is seen a ray starts, lest it meets that.
 constexpr float kStartAt = 1e-3f;
 
-/// Uniform on the sphere.
+/// Uniform on the sphere, and the same on all machines, as counts of what rays look at are to be.
 V3f random_direction(uint32_t index) {
     const float z = 2 * unit_float(hash(index, 0)) - 1, r = std::sqrt(std::max(0.0f, 1 - z * z));
     const float phi = 2 * std::numbers::pi_v<float> * unit_float(hash(index, 1));
-    return {r * std::cos(phi), r * std::sin(phi), z};
+    return {r * portable::cos(phi), r * portable::sin(phi), z};
 }
 
 SpaceRay ray_from(const AxisRay& seen_by, float depth, uint32_t index) {

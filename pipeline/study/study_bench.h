@@ -50,10 +50,10 @@ class StudyBench {
     const StudySceneFacts& last_facts() const { return result_.scenes.back(); }
 
     /// Measures methods, which are separated by spaces; the results are by rate, then by method.
-    /// Of `how`, longest_turn and occlusion count.
+    /// The settings' rounds and progress are the study's own.
     std::vector<MethodResult> measure(const SharedFrame& frame, const StudyScene& scene,
                                       const std::string& methods, const std::vector<SampleRate>& rates,
-                                      MeasureSettings how = {});
+                                      MeasureSettings settings = {});
 
     /// Who watches the part of a stage that is done; may be empty.
     const std::function<void(double)>& on_progress() const { return settings_.on_progress; }
