@@ -1,4 +1,5 @@
-/// The program from outside: which shared libraries it loads for what, and where it finds its modules.
+/// The program from outside: which shared libraries it loads for what, where it finds its modules, and the
+/// program that it becomes to compare and measure.
 #include <algorithm>
 #include <vector>
 
@@ -140,6 +141,44 @@ TEST_F(Modules, AreFoundInAnInstallWhereverItIs) {
         EXPECT_EQ(run(called, "render sphere.rib -o picture.tif"), 0) << called << ": " << errors();
         EXPECT_TRUE(fs::remove(folder_ / "picture.tif")) << called;
     }
+}
+
+/// The program that the renderer becomes to compare and measure; it is there without modules, too.
+class Laboratory : public Modules {
+  protected:
+    void SetUp() override { folder_.write("sphere.rib", kSphere); }
+};
+
+TEST_F(Laboratory, ThatIsMissingIsAnErrorOfItsCommandsAlone) {
+    const std::string alone = copy_of_program("alone");
+    for (const char* arguments : {"compare sphere.rib", "scene hair", "study growth"}) {
+        EXPECT_EQ(run(alone, arguments), 70) << arguments;
+        EXPECT_NE(errors().find("trapeze-laboratory is not beside the program"), std::string::npos)
+            << errors();
+    }
+    // What is wrong is told first, and help needs no laboratory.
+    EXPECT_EQ(run(alone, "scene magic"), 2);
+    EXPECT_NE(errors().find("magic"), std::string::npos) << errors();
+    for (const char* arguments : {"compare --help", "help study", "render sphere.rib"})
+        EXPECT_EQ(run(alone, arguments), 0) << arguments << ": " << errors();
+}
+
+TEST_F(Laboratory, ThatCannotBeRunIsTold) {
+    const std::string alone = copy_of_program("alone");
+    folder_.write("alone/trapeze-laboratory", "no program");
+    EXPECT_EQ(run(alone, "scene hair"), 70);
+    EXPECT_NE(errors().find("alone/trapeze-laboratory: "), std::string::npos) << errors();
+}
+
+TEST_F(Laboratory, IsFoundInAnInstallAndDoesWhatTheCommandSays) {
+    const std::string program = copy_of_program("install/bin");
+    fs::create_directories(folder_ / "install/lib");
+    fs::copy(fs::path(TRAPEZE_PROGRAM).parent_path().parent_path() / "lib/trapeze",
+             folder_ / "install/lib/trapeze");
+    EXPECT_EQ(run(program, "scene falling --scale .001 -o falling.rib"), 0) << errors();
+    EXPECT_EQ(run(program, "compare sphere.rib --samples 2x2 --repeat 1 --json figures.json"), 0) << errors();
+    EXPECT_NE(file_text(folder_ / "figures.json").find("raytrace"), std::string::npos);
+    EXPECT_EQ(run(program, "render falling.rib --resolution 32x18 -o falling.exr"), 0) << errors();
 }
 
 }  // namespace

@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/checkpoint/run_record.h"
 #include "pipeline/compare/blur.h"
 #include "pipeline/compare/machine.h"
 #include "pipeline/compare/measure.h"
 #include "pipeline/compare/pictures.h"
-#include "pipeline/compare/record/run_record.h"
 
 namespace trapeze {
 

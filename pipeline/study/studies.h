@@ -5,18 +5,8 @@
 
 namespace trapeze {
 
-void study_table1(StudyBench& bench, StudyResult& result);
-void study_table2(StudyBench& bench, StudyResult& result);
-void study_table3(StudyBench& bench, StudyResult& result);
-void study_table4(StudyBench& bench, StudyResult& result);
-void study_table5(StudyBench& bench, StudyResult& result);
-void study_fig6(StudyBench& bench, StudyResult& result);
-void study_fig9(StudyBench& bench, StudyResult& result);
-void study_fig10(StudyBench& bench, StudyResult& result);
-void study_growth(StudyBench& bench, StudyResult& result);
-void study_msbvh(StudyBench& bench, StudyResult& result);
-void study_mbkd(StudyBench& bench, StudyResult& result);
-void study_dynamic(StudyBench& bench, StudyResult& result);
-void study_structures(StudyBench& bench, StudyResult& result);
+#define TRAPEZE_STUDY(name, title, about, paper) void study_##name(StudyBench& bench, StudyResult& result);
+#include "pipeline/study/studies.def"
+#undef TRAPEZE_STUDY
 
 }  // namespace trapeze

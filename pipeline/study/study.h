@@ -6,7 +6,6 @@
 #include <functional>
 #include <optional>
 #include <string_view>
-#include <vector>
 
 #include "core/diagnostics.h"
 #include "pipeline/study/study_result.h"
@@ -24,12 +23,6 @@ struct StudySettings {
     /// What a method took on a scene, as soon as it is known: a study at full size may take hours.
     std::function<void(const std::string& line)> on_figure = {};
 };
-
-/// The names that run_study() knows, with what each shows.
-struct StudyName {
-    std::string_view name, about;
-};
-std::vector<StudyName> study_names();
 
 /// Runs a study with the threads of the calling task arena. Empty for an unknown name, when cancelled, and
 /// (reported) when a scene does not fit the memory.

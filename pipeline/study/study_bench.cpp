@@ -8,10 +8,10 @@
 #include "pipeline/compare/blur.h"
 #include "pipeline/compare/comparison.h"
 #include "pipeline/compare/results_json.h"
-#include "pipeline/compare/sampler_list.h"
 #include "pipeline/compare/value_text.h"
 #include "pipeline/frame/render_frame.h"
 #include "pipeline/rib/read_rib.h"
+#include "sample/sampler_list.h"
 
 namespace trapeze {
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "pipeline/checkpoint/run_record.h"
 #include "pipeline/compare/machine.h"
-#include "pipeline/compare/record/run_record.h"
 #include "pipeline/compare/report/screen_pictures.h"
 
 namespace trapeze {

@@ -1,4 +1,5 @@
 #include "pipeline/study/study.h"
+#include "pipeline/study/study_names.h"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,10 @@
 #include <fmt/format.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
 
 #include "composite/displays/display_plan.h"
 #include "pipeline/cli/commands/commands.h"
+#include "pipeline/cli/commands/made_files.h"
 #include "pipeline/cli/support/exit_codes.h"
 #include "pipeline/cli/support/interrupt.h"
-#include "pipeline/cli/support/made_files.h"
 #include "pipeline/cli/support/read_settings.h"
 #include "pipeline/frame/make_map.h"
 #include "pipeline/frame/render_frame.h"
@@ -81,27 +76,6 @@ void CheckJob::take_map(const MapRequest& request) {
 }
 
 }  // namespace
-
-bool inputs_exist(const std::vector<std::string>& inputs, Diagnostics& diagnostics) {
-    namespace fs = std::filesystem;
-    bool all = true;
-    for (const std::string& input : inputs) {
-        if (input == "-") continue;
-        std::error_code error;
-        const auto status = fs::status(input, error);
-        std::string problem;
-        if (!fs::exists(status))
-            problem = "no such file: \"" + input + "\"";
-        else if (fs::is_directory(status))
-            problem = "\"" + input + "\" is a folder";
-        else if (access(input.c_str(), R_OK) != 0)
-            problem = "cannot read \"" + input + "\": " + std::strerror(errno);
-        if (problem.empty()) continue;
-        diagnostics.error({}, problem);
-        all = false;
-    }
-    return all;
-}
 
 int check_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics) {
     const Interrupt interrupt(arguments.time_limit);

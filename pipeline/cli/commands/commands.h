@@ -6,20 +6,14 @@
 
 namespace trapeze {
 
-/// The program's commands. Each returns the exit code.
+/// The renderer's commands. Each returns the exit code.
 int render_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int farm_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int merge_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int check_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int info_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int cat_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
-int compare_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
-int study_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
-int scene_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int compliance_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int shader_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
-
-/// True when all inputs ("-": standard input) can be opened; reports those that cannot.
-bool inputs_exist(const std::vector<std::string>& inputs, Diagnostics& diagnostics);
 
 }  // namespace trapeze

@@ -7,6 +7,7 @@
 
 #include "pipeline/cli/commands/commands.h"
 #include "pipeline/cli/support/exit_codes.h"
+#include "pipeline/cli/support/read_settings.h"
 #include "pipeline/cli/support/text_files.h"
 #include "pipeline/farm/farm_job.h"
 

@@ -10,6 +10,7 @@
 #include "core/files/access.h"
 #include "pipeline/cli/commands/commands.h"
 #include "pipeline/cli/support/exit_codes.h"
+#include "pipeline/cli/support/read_settings.h"
 #include "shade/rsl/front_end.h"
 #include "shade/shaders/standard_shaders.h"
 #include "shade/vm/compile_shader.h"

@@ -13,9 +13,9 @@
 #include "pipeline/cli/support/revision.h"
 #include "pipeline/cli/support/standard_streams.h"
 #include "pipeline/cli/support/terminal.h"
-#include "pipeline/compare/sampler_list.h"
 #include "pipeline/frame/safe_mode.h"
 #include "pipeline/frame/version.h"
+#include "sample/sampler_list.h"
 #include "sample/visibility.h"
 
 namespace trapeze {

@@ -5,9 +5,9 @@
 #include "pipeline/cli/support/named_aovs.h"
 #include "pipeline/cli/support/option_kinds.h"
 #include "pipeline/cli/support/recorded_options.h"
-#include "pipeline/compare/sampler_list.h"
-#include "pipeline/study/study.h"
+#include "pipeline/study/study_names.h"
 #include "sample/load_plugin.h"
+#include "sample/sampler_list.h"
 #include "sample/visibility.h"
 
 namespace trapeze {

@@ -1,12 +1,37 @@
 #include "pipeline/cli/support/read_settings.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 
 #include "pipeline/frame/render_frame.h"
 #include "pipeline/rib/state/user_defaults.h"
 
 namespace trapeze {
+
+bool inputs_exist(const std::vector<std::string>& inputs, Diagnostics& diagnostics) {
+    namespace fs = std::filesystem;
+    bool all = true;
+    for (const std::string& input : inputs) {
+        if (input == "-") continue;
+        std::error_code error;
+        const auto status = fs::status(input, error);
+        std::string problem;
+        if (!fs::exists(status))
+            problem = "no such file: \"" + input + "\"";
+        else if (fs::is_directory(status))
+            problem = "\"" + input + "\" is a folder";
+        else if (access(input.c_str(), R_OK) != 0)
+            problem = "cannot read \"" + input + "\": " + std::strerror(errno);
+        if (problem.empty()) continue;
+        diagnostics.error({}, problem);
+        all = false;
+    }
+    return all;
+}
 
 Access scene_access(const Arguments& arguments) {
     namespace fs = std::filesystem;

@@ -10,6 +10,9 @@ namespace trapeze {
 /// serve-procedural LIBRARY`.
 inline constexpr const char* kServeProcedural = "serve-procedural";
 
+/// True when all inputs ("-": standard input) can be opened; reports those that cannot.
+bool inputs_exist(const std::vector<std::string>& inputs, Diagnostics& diagnostics);
+
 /// The files that the scenes of a command line may reach: all, or with --safe some folders.
 Access scene_access(const Arguments& arguments);
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pipeline/compare/record/run_record.h"
+#include "pipeline/checkpoint/run_record.h"
 
 namespace trapeze {
 

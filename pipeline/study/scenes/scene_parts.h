@@ -61,13 +61,8 @@ void write_moving(RibWriter& rib, std::string_view request, const Numbers& middl
 void write_bilinear(RibWriter& rib, const V3d (&corners)[4]);
 
 // The scenes of scene_names().
-std::string hair_scene(const SceneParameters& parameters);
-std::string furball_scene(const SceneParameters& parameters);
-std::string furballs_scene(const SceneParameters& parameters);
-std::string halberd_scene(const SceneParameters& parameters);
-std::string flowers_scene(const SceneParameters& parameters);
-std::string car_study_scene(const SceneParameters& parameters);
-std::string arcade_scene(const SceneParameters& parameters);
-std::string falling_scene(const SceneParameters& parameters);
+#define TRAPEZE_SCENE(name, text) std::string text(const SceneParameters& parameters);
+#include "pipeline/study/scenes/scenes.def"
+#undef TRAPEZE_SCENE
 
 }  // namespace trapeze::scenes

@@ -11,19 +11,12 @@ struct SceneRow {
 };
 
 constexpr SceneRow kScenes[] = {
-    {"hair", scenes::hair_scene},         {"furball", scenes::furball_scene},
-    {"furballs", scenes::furballs_scene}, {"halberd", scenes::halberd_scene},
-    {"flowers", scenes::flowers_scene},   {"car-study", scenes::car_study_scene},
-    {"arcade", scenes::arcade_scene},     {"falling", scenes::falling_scene},
+#define TRAPEZE_SCENE(name, text) {name, scenes::text},
+#include "pipeline/study/scenes/scenes.def"
+#undef TRAPEZE_SCENE
 };
 
 }  // namespace
-
-std::vector<std::string_view> scene_names() {
-    std::vector<std::string_view> names;
-    for (const SceneRow& row : kScenes) names.push_back(row.name);
-    return names;
-}
 
 std::string scene_text(std::string_view name, const SceneParameters& parameters) {
     for (const SceneRow& row : kScenes)

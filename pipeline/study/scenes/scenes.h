@@ -20,8 +20,14 @@ struct SceneParameters {
     double time = 0;  ///< seconds, of scenes that are sequences (falling); the others are one moment
 };
 
-/// The names that scene_text() knows.
-std::vector<std::string_view> scene_names();
+/// The names that scene_text() knows. Here, since who lists them need not have the scenes.
+inline std::vector<std::string_view> scene_names() {
+    return {
+#define TRAPEZE_SCENE(name, text) name,
+#include "pipeline/study/scenes/scenes.def"
+#undef TRAPEZE_SCENE
+    };
+}
 
 /// The scene as RIB; empty for an unknown name. Numbers of `parameters` must be finite, scale positive, the
 /// others not negative.

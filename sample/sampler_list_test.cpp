@@ -1,4 +1,4 @@
-#include "pipeline/compare/sampler_list.h"
+#include "sample/sampler_list.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

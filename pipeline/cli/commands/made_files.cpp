@@ -1,4 +1,4 @@
-#include "pipeline/cli/support/made_files.h"
+#include "pipeline/cli/commands/made_files.h"
 
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-#include "pipeline/compare/record/run_record.h"
+#include "pipeline/checkpoint/run_record.h"
 
 #include <nlohmann/json.hpp>
 

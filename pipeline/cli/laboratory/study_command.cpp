@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "composite/displays/write_displays.h"
-#include "pipeline/cli/commands/commands.h"
+#include "pipeline/cli/laboratory/laboratory.h"
 #include "pipeline/cli/support/exit_codes.h"
 #include "pipeline/cli/support/interrupt.h"
 #include "pipeline/cli/support/on_threads.h"

@@ -4,23 +4,23 @@
 #include <filesystem>
 
 #include "core/simd/simd_limit.h"
-#include "pipeline/cli/commands/commands.h"
+#include "pipeline/cli/laboratory/laboratory.h"
+#include "pipeline/cli/laboratory/recorded_comparison.h"
 #include "pipeline/cli/support/exit_codes.h"
 #include "pipeline/cli/support/interrupt.h"
 #include "pipeline/cli/support/on_threads.h"
 #include "pipeline/cli/support/read_settings.h"
-#include "pipeline/cli/support/recorded_options.h"
 #include "pipeline/cli/support/revision.h"
 #include "pipeline/cli/support/text_files.h"
 #include "pipeline/compare/record/replay.h"
 #include "pipeline/compare/report/html_report.h"
 #include "pipeline/compare/results_json.h"
-#include "pipeline/compare/sampler_list.h"
 #include "pipeline/compare/table.h"
 #include "pipeline/compare/write_pictures.h"
 #include "pipeline/frame/json_text.h"
 #include "pipeline/frame/version.h"
 #include "pipeline/rib/read_rib.h"
+#include "sample/sampler_list.h"
 
 namespace trapeze {
 namespace {

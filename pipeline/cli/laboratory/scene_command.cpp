@@ -1,9 +1,10 @@
 #include <tuple>
 
-#include "pipeline/cli/commands/commands.h"
+#include "pipeline/cli/laboratory/laboratory.h"
 #include "pipeline/cli/support/exit_codes.h"
 #include "pipeline/cli/support/standard_streams.h"
 #include "pipeline/cli/support/text_files.h"
+#include "pipeline/study/scenes/scenes.h"
 
 namespace trapeze {
 

@@ -1,0 +1,12 @@
+/// The laboratory: what compares and measures, and makes scenes for it. It is a program of its own, which the
+/// renderer becomes for its commands, so that who renders need not build it.
+#include "pipeline/cli/laboratory/laboratory.h"
+#include "pipeline/cli/program.h"
+
+int main(int argc, char** argv) {
+    using namespace trapeze;
+    constexpr CommandFunction kFunctions[] = {{Command::Compare, compare_command},
+                                              {Command::Study, study_command},
+                                              {Command::Scene, scene_command}};
+    return run_program(argc, argv, kFunctions);
+}
