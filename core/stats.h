@@ -40,6 +40,25 @@ struct ShadeStats {
     }
 };
 
+/// Seconds of building a tree, one phase after the other; all 0 where a tree does not tell them. What is left
+/// of the build is around them.
+struct BuildPhases {
+    double prepare = 0;  ///< bounding what is to be divided
+    double divide = 0;   ///< deciding which node holds what
+    double bound = 0;    ///< bounding nodes, where dividing does not say their boxes, and making lists
+    /// Of dividing, the work of all threads together: in all, and on cutting micropolygons by planes.
+    double divide_work = 0, cut_work = 0;
+
+    BuildPhases& operator+=(const BuildPhases& o) {
+        prepare += o.prepare, divide += o.divide, bound += o.bound;
+        divide_work += o.divide_work, cut_work += o.cut_work;
+        return *this;
+    }
+    double told() const { return prepare + divide + bound; }
+    /// The part of dividing that was cutting.
+    double cut_share() const { return divide_work > 0 ? cut_work / divide_work : 0; }
+};
+
 /// What was built for finding hits: bytes held, nodes and leaves.
 struct BuildStats {
     uint64_t tree_bytes = 0, tree_nodes = 0, tree_leaves = 0;
@@ -52,13 +71,14 @@ struct BuildStats {
     bool lacked_budget = false;  ///< some node was not cut because there were references enough
     double setup_seconds =
         0;  ///< of the build: spent on copying to another library's buffers, not on the tree
+    BuildPhases phases;
 
     BuildStats& operator+=(const BuildStats& o) {
         tree_bytes += o.tree_bytes, tree_nodes += o.tree_nodes, tree_leaves += o.tree_leaves;
         tree_references += o.tree_references, tree_duplicates += o.tree_duplicates;
         tree_splits += o.tree_splits, lacked_budget |= o.lacked_budget;
         tree_sah_cost += o.tree_sah_cost;
-        setup_seconds += o.setup_seconds;
+        setup_seconds += o.setup_seconds, phases += o.phases;
         return *this;
     }
 };

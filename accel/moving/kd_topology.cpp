@@ -9,6 +9,7 @@
 #include <memory>
 #include <utility>
 
+#include "accel/builders/build_clock.h"
 #include "accel/moving/kd_cells.h"
 #include "accel/moving/micropolygon_parts.h"
 
@@ -71,12 +72,13 @@ class KdBuilder {
             // As in [Pharr10 sec. 4.4.1].
             depth_limit_ =
                 std::min(kKdDepthLimit, 8 + 13 * (static_cast<int>(std::bit_width(boxes_.size())) - 1) / 10);
-            const std::unique_ptr<BuiltNode> built = build_node(std::move(root));
+            const std::unique_ptr<BuiltNode> built = build_task(std::move(root));
             result.nodes.emplace_back();
             number(*built, 0, result);
         }
         result.leaf_first.push_back(static_cast<uint32_t>(result.references.size()));
         result.guests = guests_, result.lacked_budget = lacked_budget_;
+        result.work = work_.seconds(), result.part_work = part_work_.seconds();
         return result;
     }
 
@@ -89,21 +91,35 @@ class KdBuilder {
         return box;
     }
 
+    /// A subtree whose two sides are tasks of their own where it is large.
+    std::unique_ptr<BuiltNode> build_task(NodeTask task) {
+        if (task.references.size() >= kKdNodeIsTaskFrom) return build_node(std::move(task));
+        const WorkSum::Span span(work_);
+        return build_node(std::move(task));
+    }
+
+    /// Divides a node of a task; large ones are in none, and say what they take themselves.
+    bool divide_in_task(const NodeTask& task, BuiltNode& node, NodeTask& low, NodeTask& high) {
+        if (task.references.size() < kKdNodeIsTaskFrom) return divide(task, node, low, high);
+        const WorkSum::Span span(work_);
+        return divide(task, node, low, high);
+    }
+
     std::unique_ptr<BuiltNode> build_node(NodeTask task) {
         auto node = std::make_unique<BuiltNode>();
         NodeTask low, high;
-        if (!divide(task, *node, low, high)) {
+        if (!divide_in_task(task, *node, low, high)) {
             node->references = std::move(task.references);
             return node;
         }
         const bool is_large = task.references.size() >= kKdNodeIsTaskFrom;
         task.references = {};
-        const auto build_low = [&] { node->low = build_node(std::move(low)); };
-        const auto build_high = [&] { node->high = build_node(std::move(high)); };
+        // A side of a large node may have as many references as itself.
         if (is_large)
-            tbb::parallel_invoke(build_low, build_high);
+            tbb::parallel_invoke([&] { node->low = build_task(std::move(low)); },
+                                 [&] { node->high = build_task(std::move(high)); });
         else
-            build_low(), build_high();
+            node->low = build_node(std::move(low)), node->high = build_node(std::move(high));
         return node;
     }
 
@@ -143,7 +159,8 @@ class KdBuilder {
     }
 
     /// Puts references on the sides of a plane on which they are at some time; tells how many became guests.
-    uint64_t part(const NodeTask& task, const KdPlane& plane, NodeTask& low, NodeTask& high) const {
+    uint64_t part(const NodeTask& task, const KdPlane& plane, NodeTask& low, NodeTask& high) {
+        const WorkSum::Span span(part_work_);
         uint64_t guests = 0;
         for (const KdReference& reference : task.references) {
             const std::span<const Box3f> keys = boxes_.keys(reference.item);
@@ -212,6 +229,7 @@ class KdBuilder {
     int depth_limit_ = 0;
     std::atomic<uint64_t> guests_{0};
     std::atomic<bool> lacked_budget_{false};
+    WorkSum work_, part_work_;
 };
 
 }  // namespace

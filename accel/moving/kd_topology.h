@@ -44,6 +44,8 @@ struct KdTopology {
     std::vector<KdReference> references;
     uint64_t guests = 0;         ///< duplicates that planes made because something moves across them
     bool lacked_budget = false;  ///< some node would have been divided, had there been more
+    double work = 0;             ///< seconds of all threads, in all
+    double part_work = 0;        ///< of these, on putting references on sides, where they are duplicated
 };
 
 /// Of everything in `boxes`. Deterministic, whatever the number of threads: the budget is shared out from the

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "accel/builders/build_clock.h"
 #include "accel/builders/grid_summary.h"
 #include "accel/builders/micropolygon_boxes.h"
 
 namespace trapeze {
 
 KdTree::KdTree(const Grids& grids, const KdTreeOptions& options) : grids_(grids), mailbox_(options.mailbox) {
+    PhaseClock clock;
     const std::vector<GridSummary> summaries =
         framed_summaries(grids, {PaperTreeOptions::Bounds::AxisAligned});
     for (size_t g = 0; g < summaries.size(); ++g) {
@@ -25,7 +27,10 @@ KdTree::KdTree(const Grids& grids, const KdTreeOptions& options) : grids_(grids)
             unbounded_.push_back(micropolygon_of_grid(g, shape, i));
     }
     const SweptBoxes boxes(grids, summaries);
+    stats_.phases.prepare = clock.end_phase();
     KdTopology topology = build_kd_topology(grids, boxes, options);
+    stats_.phases.divide = clock.end_phase();
+    stats_.phases.divide_work = topology.work, stats_.phases.cut_work = topology.part_work;
     nodes_ = std::move(topology.nodes);
     leaf_first_ = std::move(topology.leaf_first);
     for (int k = 0; k < 3; ++k) box_.low[k] = topology.box.min[k], box_.high[k] = topology.box.max[k];
@@ -46,6 +51,7 @@ KdTree::KdTree(const Grids& grids, const KdTreeOptions& options) : grids_(grids)
     stats_.tree_duplicates = references_.size() - std::min(references_.size(), boxes.size());
     stats_.tree_splits = (nodes_.size() - stats_.tree_leaves);
     stats_.lacked_budget = topology.lacked_budget;
+    stats_.phases.bound = clock.end_phase();
 }
 
 }  // namespace trapeze

@@ -31,6 +31,16 @@ TEST(KdTree, FindsWhatTestingEverythingFinds) {
                     }
 }
 
+TEST(KdTree, TellsItsPhases) {
+    Noise noise;
+    GridMaker maker;
+    testing::add_strips(maker, 5000, 2, noise);
+    const BuildPhases phases = KdTree(maker.grids()).stats().phases;
+    for (const double phase : {phases.prepare, phases.divide, phases.bound, phases.cut_work})
+        EXPECT_GT(phase, 0);
+    EXPECT_LT(phases.cut_work, phases.divide_work);
+}
+
 /// Everything in one plane, on one line, in one point; rays that run in planes of the tree.
 TEST(KdTree, OfFlatThingsFindsWhatTestingEverythingFinds) {
     for (const int flat : {0, 1, 2}) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "accel/builders/build_clock.h"
 #include "accel/builders/grid_summary.h"
 #include "accel/builders/micropolygon_boxes.h"
 #include "accel/builders/sah_topology.h"
@@ -80,6 +81,8 @@ MovingTree::MovingTree(const Grids& grids, const MovingTreeOptions& options)
 }
 
 void MovingTree::build() {
+    PhaseClock clock;
+    BuildPhases phases;
     const std::vector<GridSummary> summaries =
         framed_summaries(*grids_, {PaperTreeOptions::Bounds::AxisAligned});
     std::vector<MicropolygonId> ids;
@@ -90,9 +93,12 @@ void MovingTree::build() {
     spatial.budget = static_cast<size_t>(options_.budget * static_cast<double>(items.size()));
     // The boxes of the second form have to hold all of the whole box together.
     spatial.tight = options_.clipping != MovingTreeOptions::Clipping::Box;
+    phases.prepare = clock.end_phase();
     SpatialTopology topology = options_.topology == MovingTreeOptions::Topology::Morton
                                    ? build_linear_topology(items, spatial.leaf_below)
                                    : build_spatial_topology(items, *grids_, ids, spatial);
+    phases.divide = clock.end_phase(), phases.divide_work = topology.work,
+    phases.cut_work = topology.cut_work;
 
     items = {};
     leaf_first_ = std::move(topology.leaf_first);
@@ -115,6 +121,8 @@ void MovingTree::build() {
     stats_.tree_duplicates = micropolygons_.size() - ids.size();
     stats_.tree_splits = topology.splits;
     stats_.lacked_budget = topology.lacked_budget;
+    phases.bound = clock.end_phase();
+    stats_.phases = phases;
 }
 
 void MovingTree::link_nodes(const TopTopology& topology) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "accel/builders/grid_summary.h"
 #include "accel/builders/micropolygon_boxes.h"
 #include "accel/moving/linear_topology.h"
@@ -130,6 +132,22 @@ TEST(MovingTree, ShowsTransparentHitsOnce) {
     add_strips(maker, 400, 2, noise);
     const MovingTree plain(maker.grids()), cut(maker.grids(), {4});
     testing::expect_same_layers(maker, plain, cut, noise);
+}
+
+TEST(MovingTree, TellsItsPhases) {
+    Noise noise;
+    GridMaker maker;
+    add_strips(maker, 20'000, 2, noise);
+    const auto begin = std::chrono::steady_clock::now();
+    const BuildPhases cut = MovingTree(maker.grids(), {4}).stats().phases;
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    for (const double phase : {cut.prepare, cut.divide, cut.bound, cut.divide_work, cut.cut_work})
+        EXPECT_GT(phase, 0);
+    EXPECT_LE(cut.told(), seconds);
+    EXPECT_LT(cut.cut_work, cut.divide_work);
+    const BuildPhases whole = MovingTree(maker.grids(), {0}).stats().phases;
+    EXPECT_GT(whole.divide_work, 0);
+    EXPECT_EQ(whole.cut_work, 0);
 }
 
 TEST(MovingTree, KeepsToItsBudget) {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 
+#include "accel/builders/build_clock.h"
 #include "accel/builders/sah_bins.h"
 #include "accel/builders/sah_sweep.h"
 
@@ -64,12 +65,13 @@ class SpatialBuilder {
             Box3f all;
             for (const SahItem& item : items) extend(all, item.box);
             root_area_ = half_area(all);
-            const std::unique_ptr<SpatialNode> root = build_node(items, options_.budget, 0);
+            const std::unique_ptr<SpatialNode> root = build_task(items, options_.budget, 0);
             result.references.reserve(items.size());
             result.tree.root = number(*root, result);
         }
         result.leaf_first.push_back(static_cast<uint32_t>(result.references.size()));
         result.splits = splits_, result.lacked_budget = lacked_budget_;
+        result.work = work_.seconds(), result.cut_work = cut_work_.seconds();
         return result;
     }
 
@@ -77,11 +79,26 @@ class SpatialBuilder {
     /// References are sorted where they are; those of a side come one after another.
     using References = std::span<SahItem>;
 
+    /// A subtree whose two sides are tasks of their own where it is large.
+    std::unique_ptr<SpatialNode> build_task(References references, size_t budget, int depth) {
+        if (references.size() >= kNodeIsTaskFrom) return build_node(references, budget, depth);
+        const WorkSum::Span span(work_);
+        return build_node(references, budget, depth);
+    }
+
+    /// Divides a node of a task; large ones are in none, and say what they take themselves.
+    bool divide_in_task(References references, size_t budget, int depth, SpatialNode& node, References& low,
+                        References& high) {
+        if (references.size() < kNodeIsTaskFrom) return divide(references, budget, depth, node, low, high);
+        const WorkSum::Span span(work_);
+        return divide(references, budget, depth, node, low, high);
+    }
+
     std::unique_ptr<SpatialNode> build_node(References references, size_t budget, int depth) {
         auto node = std::make_unique<SpatialNode>();
         const size_t count = references.size();
         References low, high;
-        if (count < 2 || !divide(references, budget, depth, *node, low, high)) {
+        if (count < 2 || !divide_in_task(references, budget, depth, *node, low, high)) {
             node->references = references;
             return node;
         }
@@ -90,12 +107,13 @@ class SpatialBuilder {
         const auto low_budget =
             static_cast<size_t>(static_cast<double>(left) * static_cast<double>(low.size()) /
                                 static_cast<double>(low.size() + high.size()));
-        const auto build_low = [&] { node->low = build_node(low, low_budget, depth + 1); };
-        const auto build_high = [&] { node->high = build_node(high, left - low_budget, depth + 1); };
-        if (count < kNodeIsTaskFrom)
-            build_low(), build_high();
-        else
-            tbb::parallel_invoke(build_low, build_high);
+        if (count < kNodeIsTaskFrom) {
+            node->low = build_node(low, low_budget, depth + 1);
+            node->high = build_node(high, left - low_budget, depth + 1);
+        } else {
+            tbb::parallel_invoke([&] { node->low = build_task(low, low_budget, depth + 1); },
+                                 [&] { node->high = build_task(high, left - low_budget, depth + 1); });
+        }
         return node;
     }
 
@@ -174,6 +192,7 @@ class SpatialBuilder {
     bool cut(std::span<const SahItem> references, const Box3f& box, const Parting& parting, double to_beat,
              size_t budget, SpatialNode& node, References& low, References& high) {
         if (options_.budget == 0 || !sides_overlap(parting)) return false;
+        const WorkSum::Span span(cut_work_);
         const Cut best = best_cut(references, box);
         if (!(best.cost < to_beat)) return false;
         if (budget == 0) {
@@ -385,6 +404,7 @@ class SpatialBuilder {
     double root_area_ = 0;
     std::atomic<uint64_t> splits_{0};
     std::atomic<bool> lacked_budget_{false};
+    WorkSum work_, cut_work_;
 };
 
 }  // namespace

@@ -32,6 +32,7 @@ struct SpatialTopology {
     std::vector<SahItem> references;   ///< in the order of leaves
     uint64_t splits = 0;               ///< nodes that a plane cuts
     bool lacked_budget = false;        ///< some node would have been cut, had there been more
+    double work = 0, cut_work = 0;     ///< seconds of all threads: in all, and on planes that cut
 };
 
 /// `items`: a micropolygon each, whose id is its place in `ids`; the box of one that is a point is never cut.

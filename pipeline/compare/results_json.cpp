@@ -36,6 +36,10 @@ nlohmann::ordered_json to_json(const MethodResult& r) {
                                    {"tree_duplicates", r.build.tree_duplicates},
                                    {"tree_splits", r.build.tree_splits},
                                    {"tree_sah_cost", r.build.tree_sah_cost},
+                                   {"build_prepare_seconds", r.build.phases.prepare},
+                                   {"build_divide_seconds", r.build.phases.divide},
+                                   {"build_cut_seconds", r.build.phases.divide * r.build.phases.cut_share()},
+                                   {"build_bound_seconds", r.build.phases.bound},
                                    {"bytes_per_micropolygon", r.bytes_per_micropolygon()},
                                    {"micropolygons", r.micropolygons},
                                    {"tile_side", r.tile_side}};
