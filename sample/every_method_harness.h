@@ -52,6 +52,7 @@ inline std::vector<MethodForm> every_method(WhichForms which = {}) {
             const size_t values = one_of_many ? 2 : option.values.size();
             for (size_t i = 1; i < values; ++i) {
                 const std::string choice = std::string(option.name) + "=" + std::string(option.values[i]);
+                if (which.exact_only && choice == method.wrong_choice) continue;
                 // Where it does not go with the defaults, it does with one of the forms before.
                 for (const std::string& base : before) {
                     if (which.one_of_each_tree && base.find("tree=") != base.npos) continue;

@@ -83,6 +83,8 @@ struct VisibilityMethod {
     bool is_exact = true;
     /// Whether resolve() takes tiles of listed pixels: what adaptive sampling asks for.
     bool takes_lists = false;
+    /// A choice, as "clip=naive", that finds other hits all the same, to show that it does; empty: none.
+    std::string_view wrong_choice = {};
     /// What prepare() takes with these options; null: what most do.
     BuildMemory (*build_memory)(const MethodSpec& method) = nullptr;
 };

@@ -199,6 +199,20 @@ TEST(VisibilityMethods, AreAllInEveryMethod) {
     }
 }
 
+TEST(VisibilityMethods, ThatAreWrongOnPurposeAreNotAmongExactOnes) {
+    size_t wrong = 0;
+    for (const VisibilityMethod& method : visibility_methods()) {
+        if (method.wrong_choice.empty()) continue;
+        const auto is_wrong = [&](const testing::MethodForm& form) {
+            return form.name.find(method.wrong_choice) != std::string::npos;
+        };
+        EXPECT_TRUE(std::ranges::any_of(testing::every_method({.exact_only = false}), is_wrong));
+        EXPECT_FALSE(std::ranges::any_of(testing::every_method(), is_wrong));
+        ++wrong;
+    }
+    EXPECT_EQ(wrong, 1u);  // raytrace:tree=msbvh,clip=naive
+}
+
 TEST(VisibilityMethods, AreChosenByName) {
     std::string error;
     for (const VisibilityMethod& method : visibility_methods()) {

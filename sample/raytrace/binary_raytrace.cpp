@@ -37,6 +37,7 @@ MovingTreeOptions moving_options(const MethodSpec& spec) {
     if (spec["tree"] != "msbvh") return options;
     options.budget = spec.number("budget");
     if (spec["clip"] == "box") options.clipping = MovingTreeOptions::Clipping::Box;
+    if (spec["clip"] == "naive") options.clipping = MovingTreeOptions::Clipping::Naive;
     return options;
 }
 

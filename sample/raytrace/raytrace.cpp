@@ -20,7 +20,7 @@ const std::vector<SpecOption>& raytrace_options() {
         {"ray_sort", {"on", "off"}},
         {"leaf", {"8", "4", "16", "32"}},
         {"keys", {"grids", "1", "2", "3", "5"}},
-        {"clip", {"polygon", "box"}},
+        {"clip", {"polygon", "box", "naive"}},
         {"budget", {"2", "1", "4", "8"}},
         {"duplicates", {"16", "2", "4", "8", "64"}},
         {"plane", {".5", "0", "1"}},
@@ -120,6 +120,7 @@ VisibilityMethod raytrace_method() {
             check_raytrace,
             true,
             true,
+            "clip=naive",
             build_memory};
 }
 
