@@ -41,6 +41,13 @@ std::vector<StudyCheck> checks_of_spatial_splits(const std::string& scene, const
                     kBuildTwice)};
 }
 
+StudyCheck check_of_naive_clipping(const std::string& scene, const WrongPixels& wrong) {
+    return {scene + ": naive clipping loses hits, all else shows the same picture", "hits are lost",
+            fmt::format("{} of {} pixels are wrong, {} of any other tree's", wrong.naive, wrong.all,
+                        wrong.others),
+            wrong.naive > 0 && wrong.others == 0};
+}
+
 std::vector<StudyCheck> checks_of_kd_tree(const std::string& scene, const TreeRatios& here,
                                           const TreeRatios& msbvh_here, const TreeRatios& paper,
                                           const TreeRatios& msbvh_of_paper) {

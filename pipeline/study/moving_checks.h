@@ -14,6 +14,14 @@ namespace trapeze {
 std::vector<StudyCheck> checks_of_spatial_splits(const std::string& scene, const paper::TreeRatios& here,
                                                  const paper::TreeRatios& paper);
 
+/// Pixels of a picture that are not as they should be.
+struct WrongPixels {
+    size_t naive, others;  ///< with naive clipping, and with whatever tree has most
+    size_t all;
+};
+/// Checks that naive clipping loses hits, and that no other form does [Gruenschloss11 figure 3].
+StudyCheck check_of_naive_clipping(const std::string& scene, const WrongPixels& wrong);
+
 /// Checks what a k-d tree gains and costs beside interpolated boxes, and whether it renders faster than the
 /// MSBVH.
 std::vector<StudyCheck> checks_of_kd_tree(const std::string& scene, const paper::TreeRatios& here,

@@ -40,6 +40,12 @@ TEST(MovingChecks, CanMiss) {
 }
 
 /// What was not measured holds nothing.
+TEST(MovingChecks, OfNaiveClippingNeedsLostHitsOfItAlone) {
+    EXPECT_TRUE(check_of_naive_clipping("", {12, 0, 100}).held);
+    EXPECT_FALSE(check_of_naive_clipping("", {0, 0, 100}).held);
+    EXPECT_FALSE(check_of_naive_clipping("", {12, 1, 100}).held);
+}
+
 TEST(MovingChecks, NumbersThatAreNoneHoldNothing) {
     const double nan = paper::kNoFigure;
     const paper::TreeRatios none{nan, nan, nan, nan, nan, nan, nan, nan};

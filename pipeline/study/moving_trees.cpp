@@ -8,6 +8,7 @@
 
 #include "pipeline/compare/pictures.h"
 #include "pipeline/compare/value_text.h"
+#include "pipeline/study/lost_hits.h"
 #include "pipeline/study/moving_checks.h"
 #include "pipeline/study/studies.h"
 
@@ -39,7 +40,8 @@ std::vector<MovingStudyScene> moving_scenes(const StudyBench& bench) {
         {bench.scene("Hairball", "hair", 2.2), paper::kHairball},
         {bench.scene("Hairball that swings far", "hair", 2.2), paper::kMovingScenes},
         {bench.scene("Rotated Sponza", "arcade", 1), paper::kRotatedSponza},
-        {bench.scene("Falling triangles", "falling", 1), paper::kMovingScenes}};
+        {bench.scene("Falling triangles", "falling", 1), paper::kMovingScenes},
+        {bench.scene("Turning pinwheels", "pinwheels", 1), paper::kMovingScenes}};
     for (MovingStudyScene& s : scenes) {
         SceneParameters& p = s.scene.parameters;
         p.defocus = 0;
@@ -59,26 +61,54 @@ struct MovingRun {
     MovingStudyScene scene;
     std::vector<MethodResult> results;
     std::vector<HeatMap> heat;
+    /// Pixels that are not as the first row has them, by row.
+    std::vector<size_t> pixels_off;
     RaysThatCount rays;
 
     const std::string& label() const { return scene.scene.label; }
 };
 
-MovingRun run_moving_scene(StudyBench& bench, const MovingStudyScene& scene, const TreeRows& rows,
-                           RaysThatCount rays) {
-    const SampleRate rate = bench.quick() ? SampleRate{2, 2} : SampleRate{4, 4};
-    MovingRun run{scene, {}, {}, rays};
+SampleRate rate_of_moving(const StudyBench& bench) {
+    return bench.quick() ? SampleRate{2, 2} : SampleRate{4, 4};
+}
+
+MethodPicture picture_of(const StudyBench& bench, const SharedFrame& frame, const Sampler& sampler) {
+    bench.go_on();
+    auto picture = make_picture(frame, sampler, rate_of_moving(bench), bench.on_progress());
+    if (!picture) throw StudyStopped();
+    return std::move(*picture);
+}
+
+/// Figure 3, and whether it is as the paper says; `right`: what the first row shows.
+void add_lost_hits(const StudyBench& bench, StudyResult& result, const SharedFrame& frame,
+                   const MovingRun& run, const Image& right) {
+    std::string error;
+    const auto sampler = choose_sampler("raytrace:tree=msbvh,clip=naive,bundle=off", "", &error);
+    const Image wrong = picture_of(bench, frame, sampler.value()).image;
+    result.close_ups.push_back(pictures_of_lost_hits(run.label(), right, wrong));
+    result.checks.push_back(check_of_naive_clipping(
+        run.label(),
+        {pixels_that_differ(right, wrong), *std::max_element(run.pixels_off.begin(), run.pixels_off.end()),
+         right.rgba.size() / 4}));
+}
+
+MovingRun run_moving_scene(StudyBench& bench, StudyResult& result, const MovingStudyScene& scene,
+                           const TreeRows& rows, RaysThatCount rays) {
+    MovingRun run{scene, {}, {}, {}, rays};
     std::string methods;
     for (const TreeRow& row : rows) methods += std::string(row.method) + " ";
     const SharedFrame frame = bench.frame(scene.scene);
-    run.results = bench.measure(frame, scene.scene, methods, {rate}, {.occlusion = true});
+    run.results = bench.measure(frame, scene.scene, methods, {rate_of_moving(bench)}, {.occlusion = true});
     bench.stage("heat maps of " + run.label());
-    for (const MethodResult& result : run.results) {
-        bench.go_on();
-        auto picture = make_picture(frame, result.sampler, rate, bench.on_progress());
-        if (!picture) throw StudyStopped();
-        run.heat.push_back(std::move(picture->heat));
+    Image right;
+    for (const MethodResult& row : run.results) {
+        MethodPicture picture = picture_of(bench, frame, row.sampler);
+        run.heat.push_back(std::move(picture.heat));
+        if (right.rgba.empty()) right = picture.image;
+        run.pixels_off.push_back(pixels_that_differ(right, picture.image));
     }
+    const bool is_figure_3 = scene.scene.name == "pinwheels" && rays == RaysThatCount::CameraAndOcclusion;
+    if (is_figure_3) add_lost_hits(bench, result, frame, run, right);
     return run;
 }
 
@@ -114,6 +144,26 @@ StudyTable tree_table(const MovingRun& run, const TreeRows& rows) {
              maximum_and_average(run.heat[r].nodes, run.heat[r].samples), seconds_text(m.occlusion_median()),
              number_text(m.tests_per_occlusion_ray()), number_text(m.nodes_per_occlusion_ray())});
     }
+    return table;
+}
+
+/// Where the time of building goes, of trees that tell it.
+StudyTable phase_table(const std::vector<MovingRun>& runs, const TreeRows& rows) {
+    StudyTable table{
+        "Phases of building",
+        {"", "bounding micropolygons", "dividing", "of it cutting", "bounding nodes, making lists"},
+        {}};
+    const auto percent = [](double part) { return fmt::format("{:.0f} %", 100 * part); };
+    for (const MovingRun& run : runs)
+        for (size_t r = 0; r < rows.size(); ++r) {
+            const BuildPhases& phases = run.results[r].build.phases;
+            const double all = phases.told();
+            if (!(all > 0)) continue;
+            table.rows.push_back({run.label() + ", " + rows[r].name, percent(phases.prepare / all),
+                                  percent(phases.divide / all),
+                                  phases.divide_work > 0 ? percent(phases.cut_share()) : "-",
+                                  percent(phases.bound / all)});
+        }
     return table;
 }
 
@@ -190,8 +240,9 @@ std::vector<MovingRun> run_all(StudyBench& bench, StudyResult& result, const Tre
     add_moving_notes(bench, result, rays);
     std::vector<MovingRun> runs;
     for (const MovingStudyScene& scene : moving_scenes(bench))
-        runs.push_back(run_moving_scene(bench, scene, rows, rays));
+        runs.push_back(run_moving_scene(bench, result, scene, rows, rays));
     for (const MovingRun& run : runs) result.tables.push_back(tree_table(run, rows));
+    result.tables.push_back(phase_table(runs, rows));
     add_ratios(result, runs, row, rows[row].name, of_paper);
     for (MovingRun& run : runs) add_heat(result, run, rows, {0, row});
     return runs;
