@@ -41,6 +41,14 @@ PartPolygon clipped(const PartPolygon& from, const QuadPose& pose, int axis, dou
     return to;
 }
 
+/// Without branches, which Box3f::extendBy() has.
+void extend(Box3f& box, const V3f& point) {
+    for (int k = 0; k < 3; ++k) {
+        box.min[k] = std::min(box.min[k], point[k]);
+        box.max[k] = std::max(box.max[k], point[k]);
+    }
+}
+
 }  // namespace
 
 QuadPose pose_of(const Grid& grid, const MicropolygonId& id, float time01) {
@@ -59,8 +67,8 @@ Box3f box_of(const QuadPose& pose) {
 Chopped chop(const QuadPose& pose, const Box3f& box, int axis, float at) {
     Chopped parts;
     for (const V3f& corner : pose) {
-        if (corner[axis] <= at) parts.low.extendBy(corner);
-        if (corner[axis] >= at) parts.high.extendBy(corner);
+        if (corner[axis] <= at) extend(parts.low, corner);
+        if (corner[axis] >= at) extend(parts.high, corner);
     }
     // The four sides, and the diagonal that both triangles have.
     constexpr std::array<std::array<size_t, 2>, 5> kEdges{{{0, 1}, {1, 3}, {3, 2}, {2, 0}, {0, 3}}};
@@ -69,7 +77,7 @@ Chopped chop(const QuadPose& pose, const Box3f& box, int axis, float at) {
         if ((a[axis] < at) == (b[axis] < at) || a[axis] == at || b[axis] == at) continue;
         V3f crossing = a + (b - a) * ((at - a[axis]) / (b[axis] - a[axis]));
         crossing[axis] = at;
-        parts.low.extendBy(crossing), parts.high.extendBy(crossing);
+        extend(parts.low, crossing), extend(parts.high, crossing);
     }
     for (Box3f* part : {&parts.low, &parts.high})
         for (int k = 0; k < 3; ++k)

@@ -1,5 +1,6 @@
 #include "accel/moving/spatial_topology.h"
 
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
@@ -40,6 +41,9 @@ struct Cut {
     float at = 0;
     Box3f low, high;
     size_t low_count = 0, high_count = 0;
+    /// No plane of the same slabs costs less, whatever is in the boxes that it cuts: sides hold what they
+    /// hold whole. But for parts whose boxes are larger than their polygons: some cuts of such are not found.
+    double least = sah::kInfinite;
 };
 
 /// References on the sides of a cut.
@@ -65,6 +69,7 @@ class SpatialBuilder {
             Box3f all;
             for (const SahItem& item : items) extend(all, item.box);
             root_area_ = half_area(all);
+            if (options_.budget > 0) pose_all();
             const std::unique_ptr<SpatialNode> root = build_task(items, options_.budget, 0);
             result.references.reserve(items.size());
             result.tree.root = number(*root, result);
@@ -193,7 +198,7 @@ class SpatialBuilder {
              size_t budget, SpatialNode& node, References& low, References& high) {
         if (options_.budget == 0 || !sides_overlap(parting)) return false;
         const WorkSum::Span span(cut_work_);
-        const Cut best = best_cut(references, box);
+        const Cut best = best_cut(references, box, to_beat);
         if (!(best.cost < to_beat)) return false;
         if (budget == 0) {
             lacked_budget_.store(true, std::memory_order_relaxed);
@@ -222,10 +227,13 @@ class SpatialBuilder {
         return half_area(both) > kLeastOverlap * root_area_;
     }
 
-    QuadPose pose_at_middle(uint32_t id) const {
-        const MicropolygonId& micropolygon = ids_[PartId::index(id)];
-        return pose_of(grids_.grids[micropolygon.grid], micropolygon, 0.5f);
+    /// Every level of the tree asks for poses: interpolating them anew was a fifth of the build.
+    void pose_all() {
+        middle_.resize(ids_.size());
+        tbb::parallel_for(size_t{0}, ids_.size(),
+                          [&](size_t i) { middle_[i] = pose_of(grids_.grids[ids_[i].grid], ids_[i], 0.5f); });
     }
+    const QuadPose& pose_at_middle(uint32_t id) const { return middle_[PartId::index(id)]; }
     Chopped divided(const QuadPose& pose, const Box3f& box, int axis, float at) const {
         return options_.tight ? chop(pose, box, axis, at) : cut_box(box, axis, at);
     }
@@ -259,20 +267,23 @@ class SpatialBuilder {
         }
     };
 
-    /// What lies in slabs: boxes, and how many references begin and end there.
+    /// What lies in slabs: boxes, and how many references begin and end there; whole boxes of these.
     struct InSlabs {
         std::array<Box3f, kMostSlabs> boxes;
         std::array<size_t, kMostSlabs> begin{}, end{};
+        std::array<Box3f, kMostSlabs> of_begin, of_end;
     };
 
     /// The cheapest of the planes between slabs along that axis which is best if boxes are cut without
-    /// looking at what is in them: that tells the axis, and spares two thirds of the work.
-    Cut best_cut(std::span<const SahItem> references, const Box3f& box) const {
+    /// looking at what is in them: that tells the axis, and spares two thirds of the work. What is in them is
+    /// not looked at either where no plane can cost less than `to_beat`.
+    Cut best_cut(std::span<const SahItem> references, const Box3f& box, double to_beat) const {
         Cut rough;
         for (int axis = 0; axis < 3; ++axis)
             consider_planes(references, Slabs(box, axis, references.size()), half_area(box), false, rough);
         if (!options_.tight || !(rough.cost < sah::kInfinite)) return rough;
         Cut best;
+        if (!(rough.least < to_beat)) return best;
         consider_planes(references, Slabs(box, rough.axis, references.size()), half_area(box), true, best);
         return best;
     }
@@ -285,19 +296,31 @@ class SpatialBuilder {
             add_polygons(references, slabs, in);
         else
             add_boxes(references, slabs, in);
-        std::array<Box3f, kMostSlabs + 1> above;
-        for (size_t i = slabs.count; i-- > 0;) above[i] = above[i + 1], extend(above[i], in.boxes[i]);
-        Box3f below;
+        std::array<Box3f, kMostSlabs + 1> above, whole_above;
+        for (size_t i = slabs.count; i-- > 0;) {
+            above[i] = above[i + 1], extend(above[i], in.boxes[i]);
+            whole_above[i] = whole_above[i + 1], extend(whole_above[i], in.of_begin[i]);
+        }
+        Cut here;
+        Box3f below, whole_below;
         size_t low = 0, high = references.size();
         for (size_t i = 1; i < slabs.count; ++i) {
-            extend(below, in.boxes[i - 1]);
+            extend(below, in.boxes[i - 1]), extend(whole_below, in.of_end[i - 1]);
             low += in.begin[i - 1], high -= in.end[i - 1];
             if (low == 0 || high == 0) continue;
+            here.least = std::min(here.least, node_area * kTraversalCost +
+                                                  area_of(whole_below) * static_cast<double>(low) +
+                                                  area_of(whole_above[i]) * static_cast<double>(high));
             const double cost = node_area * kTraversalCost + half_area(below) * static_cast<double>(low) +
                                 half_area(above[i]) * static_cast<double>(high);
-            if (cost < best.cost) best = {cost, slabs.axis, slabs.planes[i], below, above[i], low, high};
+            if (cost < here.cost)
+                here = {cost, slabs.axis, slabs.planes[i], below, above[i], low, high, here.least};
         }
+        if (here.cost < best.cost) best = here;
     }
+
+    /// Half of the surface; none of a box of nothing.
+    static double area_of(const Box3f& box) { return box.isEmpty() ? 0 : half_area(box); }
 
     /// Without branches, which Box3f::extendBy() has.
     static void extend(Box3f& box, const Box3f& other) {
@@ -312,6 +335,7 @@ class SpatialBuilder {
             const size_t first = slabs.of(item.box.min[slabs.axis]);
             const size_t last = std::max(first, slabs.of(item.box.max[slabs.axis]));
             ++in.begin[first], ++in.end[last];
+            extend(in.of_begin[first], item.box), extend(in.of_end[last], item.box);
             for (size_t slab = first; slab <= last; ++slab) extend(in.boxes[slab], item.box);
         }
         // What planes cut off is the same for all boxes in a slab.
@@ -331,7 +355,7 @@ class SpatialBuilder {
             ++in.begin[first], ++in.end[last];
             Box3f rest = item.box;
             if (first < last) {
-                const QuadPose pose = pose_at_middle(item.id);
+                const QuadPose& pose = pose_at_middle(item.id);
                 for (size_t slab = first; slab < last && !rest.isEmpty(); ++slab) {
                     const Chopped parts = chop(pose, rest, slabs.axis, slabs.planes[slab + 1]);
                     if (!parts.low.isEmpty()) extend(in.boxes[slab], parts.low);
@@ -401,6 +425,7 @@ class SpatialBuilder {
     const Grids& grids_;
     const std::vector<MicropolygonId>& ids_;
     const SpatialOptions& options_;
+    std::vector<QuadPose> middle_;  ///< micropolygon -> where it is at mid-shutter; none without a budget
     double root_area_ = 0;
     std::atomic<uint64_t> splits_{0};
     std::atomic<bool> lacked_budget_{false};

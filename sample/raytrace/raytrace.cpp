@@ -84,7 +84,7 @@ BuildMemory build_memory(const MethodSpec& spec) {
         {"interpolated", {100, 100, 256}},
         {"refit", {100, 100, 256}},
         {"lbvh", {80, 60, 256}},
-        {"msbvh", {100, 100, 256}},
+        {"msbvh", {120, 100, 256}},
         {"mbkd", {120, 0, 256}},
         {"gs", {190, 0, 8}},
         {"dynamic", {190, 0, 8}},
