@@ -163,6 +163,13 @@ TEST_F(Laboratory, ThatIsMissingIsAnErrorOfItsCommandsAlone) {
         EXPECT_EQ(run(alone, arguments), 0) << arguments << ": " << errors();
 }
 
+TEST_F(Laboratory, SaysOfOtherCommandsThatTheyAreNotIts) {
+    const fs::path laboratory =
+        fs::path(TRAPEZE_PROGRAM).parent_path().parent_path() / "lib/trapeze/trapeze-laboratory";
+    EXPECT_EQ(run("timeout' 20 '" + laboratory.string(), "render sphere.rib"), 2) << errors();
+    EXPECT_NE(errors().find("call trapeze"), std::string::npos) << errors();
+}
+
 TEST_F(Laboratory, ThatCannotBeRunIsTold) {
     const std::string alone = copy_of_program("alone");
     folder_.write("alone/trapeze-laboratory", "no program");

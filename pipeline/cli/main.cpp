@@ -1,6 +1,7 @@
 /// The renderer.
 #include "pipeline/cli/commands/commands.h"
 #include "pipeline/cli/program.h"
+#include "pipeline/cli/support/become_laboratory.h"
 
 int main(int argc, char** argv) {
     using namespace trapeze;
@@ -10,5 +11,5 @@ int main(int argc, char** argv) {
         {Command::Info, info_command},     {Command::Cat, cat_command},
         {Command::Shader, shader_command}, {Command::Compliance, compliance_command},
     };
-    return run_program(argc, argv, kFunctions);
+    return run_program(argc, argv, kFunctions, become_laboratory);
 }

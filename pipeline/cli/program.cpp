@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "core/simd/simd_limit.h"
-#include "pipeline/cli/support/become_laboratory.h"
 #include "pipeline/cli/support/exit_codes.h"
 #include "pipeline/cli/support/interrupt.h"
 #include "pipeline/cli/support/memory_limit.h"
@@ -39,7 +38,8 @@ int run(const CommandFunction& function, const Arguments& arguments, Terminal& t
 
 }  // namespace
 
-int run_program(int argc, char** argv, std::span<const CommandFunction> functions) {
+int run_program(int argc, char** argv, std::span<const CommandFunction> functions,
+                int (*otherwise)(char** argv)) {
     if (argc == 3 && std::string_view(argv[1]) == kServeProcedural) return serve_procedural(argv[2]);
     prepare_standard_streams();
     Arguments arguments;
@@ -48,7 +48,7 @@ int run_program(int argc, char** argv, std::span<const CommandFunction> function
         return *code == kExitOk && !printed_all(terminal) ? kExitNoOutput : *code;
     }
     const auto function = std::ranges::find(functions, arguments.command, &CommandFunction::command);
-    if (function == functions.end()) return become_laboratory(argv);
+    if (function == functions.end()) return otherwise(argv);
     if (arguments.safe) be_safe(arguments);
     Terminal terminal({progress_style(arguments.progress), arguments.color, arguments.quiet,
                        arguments.safe ? kMostSafeMessages : Terminal::Settings().most_messages});

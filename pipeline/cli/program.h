@@ -15,7 +15,8 @@ struct CommandFunction {
 };
 
 /// What a program of ours does, from its command line to its exit code. Both programs, the renderer and the
-/// laboratory, read all commands; one that is not among `functions` becomes the laboratory for it.
-int run_program(int argc, char** argv, std::span<const CommandFunction> functions);
+/// laboratory, read all commands; of one that is not among `functions`, `otherwise` gives the exit code.
+int run_program(int argc, char** argv, std::span<const CommandFunction> functions,
+                int (*otherwise)(char** argv));
 
 }  // namespace trapeze
