@@ -56,29 +56,16 @@ struct Flake {
 
 void write_flakes(RibWriter& rib, uint32_t first, uint32_t last, const SceneParameters& p) {
     const double side = kFlakeSide / std::sqrt(p.scale);
-    std::vector<V3d> open, close, colors;
-    Integers vertices;
+    MovingQuads quads;
     for (uint32_t i = first; i < last; ++i) {
         const Flake flake(i);
         // What lies on what: a heap, a little higher with each flake.
         const double rest = kStageFloor + .002 + .03 * (i % 1009) / 1009.0;
         const double half = .5 * kShutter * p.motion;
-        for (const V3d& corner : flake.corners(p.time - half, side, rest)) open.push_back(corner);
-        for (const V3d& corner : flake.corners(p.time + half, side, rest)) close.push_back(corner);
-        for (int c = 0; c < 4; ++c)
-            vertices.push_back(static_cast<int>(vertices.size())), colors.push_back(flake.color);
+        quads.add(flake.corners(p.time - half, side, rest), flake.corners(p.time + half, side, rest),
+                  flake.color);
     }
-    const Numbers color = flattened(colors);
-    const auto write = [&](const std::vector<V3d>& places) {
-        // Rounded corners are not quite in a plane: polygons would become triangles.
-        rib.request("SubdivisionMesh", "bilinear", Integers(vertices.size() / 4, 4), vertices, Words{},
-                    Integers{}, Integers{}, Numbers{}, "P", flattened(places), "varying color Cs", color);
-    };
-    if (!(p.motion > 0)) return write(open);
-    rib.request("MotionBegin", Integers{0, 1});
-    write(open);
-    write(close);
-    rib.request("MotionEnd");
+    quads.write(rib, p);
 }
 
 void write_stage(RibWriter& rib) {

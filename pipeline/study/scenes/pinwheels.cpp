@@ -45,28 +45,14 @@ struct Wheel {
 };
 
 void write_wheels(RibWriter& rib, uint32_t first, uint32_t last, double size, const SceneParameters& p) {
-    std::vector<V3d> open, close, colors;
-    Integers vertices;
+    MovingQuads quads;
     for (uint32_t w = first; w < last; ++w) {
         const Wheel wheel(w, size);
-        for (int blade = 0; blade < kBlades; ++blade) {
-            const double half = .5 * wheel.turn * p.motion;
-            for (const V3d& corner : wheel.corners(blade, -half)) open.push_back(corner);
-            for (const V3d& corner : wheel.corners(blade, half)) close.push_back(corner);
-            for (int c = 0; c < 4; ++c)
-                vertices.push_back(static_cast<int>(vertices.size())), colors.push_back(wheel.color);
-        }
+        const double half = .5 * wheel.turn * p.motion;
+        for (int blade = 0; blade < kBlades; ++blade)
+            quads.add(wheel.corners(blade, -half), wheel.corners(blade, half), wheel.color);
     }
-    const Numbers color = flattened(colors);
-    const auto write = [&](const std::vector<V3d>& places) {
-        rib.request("SubdivisionMesh", "bilinear", Integers(vertices.size() / 4, 4), vertices, Words{},
-                    Integers{}, Integers{}, Numbers{}, "P", flattened(places), "varying color Cs", color);
-    };
-    if (!(p.motion > 0)) return write(open);
-    rib.request("MotionBegin", Integers{0, 1});
-    write(open);
-    write(close);
-    rib.request("MotionEnd");
+    quads.write(rib, p);
 }
 
 void write_pinwheels_world(RibWriter& rib, const SceneParameters& p) {

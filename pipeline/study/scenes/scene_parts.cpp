@@ -1,5 +1,7 @@
 #include "pipeline/study/scenes/scene_parts.h"
 
+#include <numeric>
+
 #include <fmt/format.h>
 
 namespace trapeze::scenes {
@@ -60,6 +62,29 @@ void write_moving(RibWriter& rib, std::string_view request, const Numbers& middl
         close[i] += .5 * p.motion * change[i];
     }
     rib.moving(request, open, close);
+}
+
+void MovingQuads::add(const std::array<V3d, 4>& at_opening, const std::array<V3d, 4>& at_closing,
+                      const V3d& color) {
+    open.insert(open.end(), at_opening.begin(), at_opening.end());
+    close.insert(close.end(), at_closing.begin(), at_closing.end());
+    colors.insert(colors.end(), 4, color);
+}
+
+void MovingQuads::write(RibWriter& rib, const SceneParameters& parameters) const {
+    Integers vertices(open.size());
+    std::iota(vertices.begin(), vertices.end(), 0);
+    const auto write_at = [&](const std::vector<V3d>& places) {
+        // Rounded corners are not quite in a plane: polygons would become triangles.
+        rib.request("SubdivisionMesh", "bilinear", Integers(vertices.size() / 4, 4), vertices, Words{},
+                    Integers{}, Integers{}, Numbers{}, "P", flattened(places), "varying color Cs",
+                    flattened(colors));
+    };
+    if (!(parameters.motion > 0)) return write_at(open);
+    rib.request("MotionBegin", Integers{0, 1});
+    write_at(open);
+    write_at(close);
+    rib.request("MotionEnd");
 }
 
 void write_bilinear(RibWriter& rib, const V3d (&corners)[4]) {

@@ -1,6 +1,7 @@
 /// What the scenes' generators share: chance by index, the frame's requests, the table's functions.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -56,6 +57,15 @@ std::string scene_of(const Shot& shot, void (*write_world)(RibWriter&, const Sce
 /// open, and are `middle` at half of it.
 void write_moving(RibWriter& rib, std::string_view request, const Numbers& middle, const Numbers& change,
                   const SceneParameters& parameters);
+
+/// Quadrilaterals that move by themselves, as one mesh: corners in turn, when the shutter opens and closes.
+struct MovingQuads {
+    std::vector<V3d> open, close, colors;
+
+    void add(const std::array<V3d, 4>& at_opening, const std::array<V3d, 4>& at_closing, const V3d& color);
+    /// At rest, as when the shutter opens, where parameters.motion is 0.
+    void write(RibWriter& rib, const SceneParameters& parameters) const;
+};
 
 /// Writes a plane or sky in one piece: the corners are in the order of a bilinear patch.
 void write_bilinear(RibWriter& rib, const V3d (&corners)[4]);
