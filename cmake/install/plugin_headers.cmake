@@ -35,8 +35,9 @@ set(TRAPEZE_PLUGIN_HEADERS
     sample/visibility.h
     sample/visibility_methods.def)
 
-# How a plugin is compiled: products are not fused into sums, as in the program; other names stay in the file.
-set(TRAPEZE_PLUGIN_OPTIONS "-std=c++20 -fPIC -ffp-contract=off -fvisibility=hidden")
+# How a plugin is compiled: products are not fused into sums, as in the program. What makes a shared library of it, -fPIC
+# and -shared, its author says: Debian keeps such flags out of .pc files (lintian, pkg-config-bad-directive).
+set(TRAPEZE_PLUGIN_OPTIONS "-std=c++20 -ffp-contract=off")
 
 # trapeze_takes_plugins(TARGET): the program shows to plugins what is not in those headers [decision 0040].
 function(trapeze_takes_plugins target)

@@ -1,7 +1,7 @@
 /// A visibility method in a file of its own, as a beginning for others: `cells` sorts micropolygons into cells of
 /// the picture, and tests each sample against those of its cell. It is built and used so:
 ///
-///     g++ -O2 -shared cells.cpp -o cells.so $(pkg-config --cflags trapeze-plugin)
+///     g++ -O2 -fPIC -shared cells.cpp -o cells.so $(pkg-config --cflags trapeze-plugin)
 ///     trapeze compare scene.rib --plugin ./cells.so --samplers "raytrace cells cells:side=4"
 ///
 /// What a method must keep to: docs/how-to-add-a-visibility-method.md.
