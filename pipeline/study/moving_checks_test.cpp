@@ -46,6 +46,19 @@ TEST(MovingChecks, OfNaiveClippingNeedsLostHitsOfItAlone) {
     EXPECT_FALSE(check_of_naive_clipping("", {12, 1, 100}).held);
 }
 
+TEST(MovingChecks, AreOfWhatThePaperHasFiguresOf) {
+    using paper::kMsbvh, paper::kMbkd;
+    EXPECT_EQ(checks_of_spatial_splits("", kMsbvh[0], kMsbvh[paper::kHairball]).size(), 4u);
+    EXPECT_EQ(checks_of_spatial_splits("", kMsbvh[0], kMsbvh[paper::kBubs]).size(), 3u);
+    EXPECT_EQ(checks_of_spatial_splits("", kMsbvh[0], kMsbvh[paper::kHand]).size(), 2u);
+    EXPECT_EQ(checks_of_kd_tree("", kMbkd[0], kMsbvh[0], kMbkd[paper::kHand], kMsbvh[paper::kHand]).size(),
+              4u);
+    EXPECT_EQ(checks_of_kd_tree("", kMbkd[0], kMsbvh[0], kMbkd[paper::kFlake], kMsbvh[paper::kFlake]).size(),
+              1u);
+    EXPECT_TRUE(
+        checks_of_kd_tree("", kMbkd[0], kMsbvh[0], kMbkd[paper::kCroc], kMsbvh[paper::kCroc]).empty());
+}
+
 TEST(MovingChecks, NumbersThatAreNoneHoldNothing) {
     const double nan = paper::kNoFigure;
     const paper::TreeRatios none{nan, nan, nan, nan, nan, nan, nan, nan};

@@ -41,7 +41,11 @@ std::vector<MovingStudyScene> moving_scenes(const StudyBench& bench) {
         {bench.scene("Hairball that swings far", "hair", 2.2), paper::kMovingScenes},
         {bench.scene("Rotated Sponza", "arcade", 1), paper::kRotatedSponza},
         {bench.scene("Falling triangles", "falling", 1), paper::kMovingScenes},
-        {bench.scene("Turning pinwheels", "pinwheels", 1), paper::kMovingScenes}};
+        {bench.scene("Turning pinwheels", "pinwheels", 1), paper::kMovingScenes},
+        {bench.scene("Bubbles", "bubbles", 4), paper::kBubs},
+        {bench.scene("Crocodile", "crocodile", 4), paper::kCroc},
+        {bench.scene("Hand", "hand", 3), paper::kHand},
+        {bench.scene("Snow crystals", "snowflakes", 1), paper::kFlake}};
     for (MovingStudyScene& s : scenes) {
         SceneParameters& p = s.scene.parameters;
         p.defocus = 0;
@@ -205,8 +209,10 @@ void add_ratios(StudyResult& result, const std::vector<MovingRun>& runs, size_t 
         {}};
     for (const MovingRun& run : runs) {
         table.rows.push_back(ratio_cells(run.label(), ratios_of(run, row)));
-        if (run.scene.of_paper != paper::kMovingScenes)
-            table.rows.push_back(ratio_cells(run.label() + ", the paper's", of_paper[run.scene.of_paper]));
+        if (run.scene.of_paper == paper::kMovingScenes) continue;
+        const auto cells = ratio_cells(run.label() + ", the paper's", of_paper[run.scene.of_paper]);
+        const auto has_figure = [](const std::string& cell) { return cell != "-"; };
+        if (std::any_of(cells.begin() + 1, cells.end(), has_figure)) table.rows.push_back(cells);
     }
     result.tables.push_back(table);
 }
