@@ -9,25 +9,6 @@
 namespace trapeze {
 namespace {
 
-/// Where positions X Y Z of a grid at one of its keys are, in tiles (see core/grid.h). Only segments are
-/// stored: a key's pose is its segment's start, and the last key's is the last segment's start plus its
-/// motion.
-struct KeyPlanes {
-    const float* start[3];
-    const float* delta[3];  ///< null: the key is a segment's first
-};
-
-KeyPlanes planes_at(const Grid& grid, int key) {
-    KeyPlanes planes{};
-    const bool at_end = grid.moves() && key == grid.key_count - 1;
-    const int segment = at_end ? key - 1 : key;
-    for (int k = 0; k < 3; ++k) {
-        planes.start[k] = grid.plane(segment, k);
-        planes.delta[k] = at_end ? grid.plane(segment, 3 + k) : nullptr;
-    }
-    return planes;
-}
-
 /// Running maxima over keys, in the frame of the vertices given.
 struct Extremes {
     float absolute_max = 0, quad_extent = 0;
@@ -59,41 +40,41 @@ bool is_curve(const GridShape& shape) {
 }  // namespace
 
 V3f vertex_of_key(const Grid& grid, int key, int i, int j) {
-    const KeyPlanes planes = planes_at(grid, key);
-    const int at = grid.shape.tiled_index(i, j);
-    V3f p;
-    for (int k = 0; k < 3; ++k) p[k] = planes.start[k][at] + (planes.delta[k] ? planes.delta[k][at] : 0);
-    return p;
+    return KeyVertices(grid, key)[grid.shape.tiled_index(i, j)];
 }
 
 void vertices_in_frame(const Grid& grid, int key, const Frame& frame, FramedVertices& out) {
-    const KeyPlanes planes = planes_at(grid, key);
+    const KeyVertices vertices(grid, key);
     int n = 0;
     for (int j = 0; j <= grid.shape.nv; ++j)
         for (int i = 0; i <= grid.shape.nu; ++i, ++n) {
-            const int at = grid.shape.tiled_index(i, j);
-            float x = planes.start[0][at], y = planes.start[1][at], z = planes.start[2][at];
-            if (planes.delta[0]) x += planes.delta[0][at], y += planes.delta[1][at], z += planes.delta[2][at];
+            const V3f p = vertices[grid.shape.tiled_index(i, j)];
             for (int k = 0; k < 3; ++k)
-                out.c[k][n] = (frame.axis[k].x * x + frame.axis[k].y * y) + frame.axis[k].z * z;
+                out.c[k][n] = (frame.axis[k].x * p.x + frame.axis[k].y * p.y) + frame.axis[k].z * p.z;
         }
 }
 
-GridSummary summarise(const Grid& grid) {
-    const GridShape& shape = grid.shape;
+GridSummary summarise_along_axes(const Grid& grid) {
     GridSummary summary;
-    summary.weight = static_cast<uint32_t>(shape.micropolygon_count());
+    summary.weight = static_cast<uint32_t>(grid.shape.micropolygon_count());
 
     Extremes extremes;
     FramedVertices p;
     for (int key = 0; key < grid.key_count; ++key) {
         vertices_in_frame(grid, key, Frame{}, p);
-        extend_extremes(shape, p, extremes);
+        extend_extremes(grid.shape, p, extremes);
     }
     // Written so that a NaN makes the grid unboundable.
     const bool boundable = extremes.absolute_max <= kBoundableCoordinate;
     summary.absolute_max = boundable ? extremes.absolute_max : std::numeric_limits<float>::infinity();
     summary.quad_extent = extremes.quad_extent;
+    return summary;
+}
+
+GridSummary summarise(const Grid& grid) {
+    const GridShape& shape = grid.shape;
+    GridSummary summary = summarise_along_axes(grid);
+    const bool boundable = std::isfinite(summary.absolute_max);
 
     for (int j = 0; j <= shape.nv; ++j)
         for (int i = 0; i <= shape.nu; ++i) summary.box.extendBy(grid.vertex(i, j, 0.5f));
@@ -122,6 +103,13 @@ std::vector<GridSummary> framed_summaries(const Grids& grids, const PaperTreeOpt
         summaries[i] = summarise(grids.grids[i]);
         if (!options.oriented()) summaries[i].frame = Frame{};
     });
+    return summaries;
+}
+
+std::vector<GridSummary> summaries_along_axes(const Grids& grids) {
+    std::vector<GridSummary> summaries(grids.grids.size());
+    tbb::parallel_for(size_t{0}, summaries.size(),
+                      [&](size_t i) { summaries[i] = summarise_along_axes(grids.grids[i]); });
     return summaries;
 }
 

@@ -2,18 +2,37 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace trapeze {
 
-void boxes_of_grid(const Grid& grid, const Frame& frame, float time01, uint32_t first_id, SahItem* items) {
+namespace {
+
+/// Boxes at a time of what `place` makes of vertices.
+template <class Place>
+void boxes_of_placed(const Grid& grid, float time01, uint32_t first_id, SahItem* items, const Place& place) {
     V3f vertices[kMaxGridVertices];
+    const MotionSegment s = segment_at(time01, grid.moves() ? grid.key_count : 1);
+    const auto coordinate = [&](int k, int at) {
+        const float start = grid.plane(s.index, k)[at];
+        return grid.moves() ? position_at(start, grid.plane(s.index, 3 + k)[at], s.local) : start;
+    };
+    V3f* out = vertices;
     for (int j = 0; j <= grid.shape.nv; ++j)
-        for (int i = 0; i <= grid.shape.nu; ++i)
-            vertices[grid.shape.row_index(i, j)] = frame.from_space(grid.vertex(i, j, time01));
+        for (int i = 0; i <= grid.shape.nu; ++i, ++out) {
+            const int at = grid.shape.tiled_index(i, j);
+            *out = place(V3f(coordinate(0, at), coordinate(1, at), coordinate(2, at)));
+        }
     for_each_box(grid.shape, vertices, [&](int i, const Box3f& box) {
         items[i] = {box, 1, first_id + static_cast<uint32_t>(i)};
     });
+}
+
+}  // namespace
+
+void boxes_of_grid(const Grid& grid, const Frame& frame, float time01, uint32_t first_id, SahItem* items) {
+    boxes_of_placed(grid, time01, first_id, items, [&](const V3f& p) { return frame.from_space(p); });
 }
 
 void micropolygon_items(const Grids& grids, const std::vector<GridSummary>& summaries,
@@ -28,14 +47,16 @@ void micropolygon_items(const Grids& grids, const std::vector<GridSummary>& summ
     items.resize(count);
     tbb::parallel_for(size_t{0}, first.size(), [&](size_t g) {
         const Grid& grid = grids.grids[g];
-        boxes_of_grid(grid, Frame{}, 0.5f, first[g], items.data() + first[g]);
-        for (int i = 0; i < grid.shape.micropolygon_count(); ++i) {
-            const uint32_t id = first[g] + static_cast<uint32_t>(i);
-            ids[id] = micropolygon_of_grid(g, grid.shape, i);
-            // A huge box would make all costs of the SAH infinite; such grids are bounded by their rounding
-            // anyhow.
-            if (!std::isfinite(summaries[g].absolute_max)) items[id].box = Box3f(V3f(0), V3f(0));
-        }
+        boxes_of_placed(grid, 0.5f, first[g], items.data() + first[g], [](const V3f& p) { return p; });
+        uint32_t id = first[g];
+        for (int v = 0; v < grid.shape.nv; ++v)
+            for (int u = 0; u < grid.shape.nu; ++u, ++id)
+                ids[id] = {static_cast<uint32_t>(g), static_cast<uint8_t>(u), static_cast<uint8_t>(v)};
+        // A huge box would make all costs of the SAH infinite; such grids are bounded by their rounding
+        // anyhow.
+        if (!std::isfinite(summaries[g].absolute_max))
+            std::for_each(items.data() + first[g], items.data() + id,
+                          [](SahItem& item) { item.box = Box3f(V3f(0), V3f(0)); });
     });
 }
 

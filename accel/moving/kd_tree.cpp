@@ -13,8 +13,7 @@ namespace trapeze {
 
 KdTree::KdTree(const Grids& grids, const KdTreeOptions& options) : grids_(grids), mailbox_(options.mailbox) {
     PhaseClock clock;
-    const std::vector<GridSummary> summaries =
-        framed_summaries(grids, {PaperTreeOptions::Bounds::AxisAligned});
+    const std::vector<GridSummary> summaries = summaries_along_axes(grids);
     for (size_t g = 0; g < summaries.size(); ++g) {
         const GridSummary& summary = summaries[g];
         if (std::isfinite(summary.absolute_max)) {

@@ -40,6 +40,8 @@ void keyed_boxes(std::span<const Box3f> from, std::span<Box3f> to) {
     if (to.size() == 1) {
         to[0] = Box3f();
         for (const Box3f& box : from) to[0].extendBy(box);
+    } else if (to.size() == from.size()) {
+        std::ranges::copy(from, to.begin());
     } else if (to.size() < from.size()) {
         fewer_keys(from, to);
     } else {

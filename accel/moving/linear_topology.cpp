@@ -1,7 +1,6 @@
 #include "accel/moving/linear_topology.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
@@ -9,6 +8,7 @@
 
 #include "accel/builders/interleaved_bits.h"
 #include "accel/builders/sah_bins.h"
+#include "accel/builders/sort_by_code.h"
 
 namespace trapeze {
 namespace {
@@ -16,14 +16,6 @@ namespace {
 /// With the halves of what has one code, of at most 2^31 references, no deeper than kTopDepthLimit.
 constexpr int kMortonBits = 18;
 static_assert(3 * kMortonBits + 31 <= kTopDepthLimit);
-
-/// A code and the place of its item: what is sorted, for items are four times as large.
-struct CodedItem {
-    uint64_t code;
-    uint32_t item;
-
-    bool operator<(const CodedItem& o) const { return code != o.code ? code < o.code : item < o.item; }
-};
 
 uint64_t morton_code(const V3f& at, const Box3f& box) {
     constexpr float kSteps = 1 << kMortonBits;
@@ -36,26 +28,60 @@ uint64_t morton_code(const V3f& at, const Box3f& box) {
     return interleaved(step[0], step[1], step[2]);
 }
 
+/// Items that one task divides: few enough for caches.
+constexpr size_t kItemsOfSubtree = 1 << 14;
+
+/// A part of the tree; links within it count its own nodes and leaves.
+struct Subtree {
+    size_t first, last;  ///< its items in the order
+    std::vector<std::array<TopLink, 2>> inner;
+    std::vector<uint32_t> leaf_first;
+    TopLink root{};
+};
+
 class LinearBuilder {
   public:
-    LinearBuilder(std::span<const CodedItem> order, size_t leaf_below, SpatialTopology& result)
-        : order_(order), leaf_below_(leaf_below), result_(result) {}
+    LinearBuilder(std::span<const CodedItem> order, size_t leaf_below)
+        : order_(order), leaf_below_(leaf_below) {}
 
-    /// The subtree of items [first, last) of the order; inner nodes in preorder.
-    TopLink build(size_t first, size_t last) {
-        if (last - first < leaf_below_) {
-            result_.leaf_first.push_back(static_cast<uint32_t>(first));
-            return TopLink::leaf(static_cast<uint32_t>(result_.leaf_first.size() - 1));
-        }
-        const auto index = static_cast<uint32_t>(result_.tree.inner.size());
-        result_.tree.inner.emplace_back();
-        const size_t middle = divide(first, last);
-        const TopLink low = build(first, middle), high = build(middle, last);
-        result_.tree.inner[index] = {low, high};
-        return TopLink::inner(index);
+    /// The nodes above subtrees, which are divided in parallel; then all in one, from left to right.
+    void build(SpatialTopology& result) {
+        Subtree top{0, order_.size(), {}, {}};
+        top.root = divide_into_subtrees(top, 0, order_.size());
+        tbb::parallel_for(size_t{0}, subtrees_.size(), [&](size_t i) {
+            subtrees_[i].root = build(subtrees_[i], subtrees_[i].first, subtrees_[i].last);
+        });
+        join(top, result);
     }
 
   private:
+    /// Leaf links of `top` are indices of subtrees.
+    TopLink divide_into_subtrees(Subtree& top, size_t first, size_t last) {
+        if (last - first <= kItemsOfSubtree) {
+            subtrees_.push_back({first, last, {}, {}});
+            return TopLink::leaf(static_cast<uint32_t>(subtrees_.size() - 1));
+        }
+        const size_t index = top.inner.size(), middle = divide(first, last);
+        top.inner.emplace_back();
+        const TopLink low = divide_into_subtrees(top, first, middle),
+                      high = divide_into_subtrees(top, middle, last);
+        top.inner[index] = {low, high};
+        return TopLink::inner(static_cast<uint32_t>(index));
+    }
+
+    /// What is below a node of items [first, last); inner nodes in preorder.
+    TopLink build(Subtree& tree, size_t first, size_t last) const {
+        if (last - first < leaf_below_) {
+            tree.leaf_first.push_back(static_cast<uint32_t>(first));
+            return TopLink::leaf(static_cast<uint32_t>(tree.leaf_first.size() - 1));
+        }
+        const size_t index = tree.inner.size(), middle = divide(first, last);
+        tree.inner.emplace_back();
+        const TopLink low = build(tree, first, middle), high = build(tree, middle, last);
+        tree.inner[index] = {low, high};
+        return TopLink::inner(static_cast<uint32_t>(index));
+    }
+
     /// The first item that has the highest bit in which the range's codes differ.
     size_t divide(size_t first, size_t last) const {
         const uint64_t differing = order_[first].code ^ order_[last - 1].code;
@@ -68,9 +94,38 @@ class LinearBuilder {
         return static_cast<size_t>(middle - order_.begin());
     }
 
+    /// Inner nodes of the top come first, then those of the subtrees in turn.
+    void join(const Subtree& top, SpatialTopology& result) const {
+        std::vector<size_t> first_inner{top.inner.size()}, first_leaf{0};
+        for (const Subtree& tree : subtrees_) {
+            first_inner.push_back(first_inner.back() + tree.inner.size());
+            first_leaf.push_back(first_leaf.back() + tree.leaf_first.size());
+        }
+        const auto moved = [&](const TopLink& link, size_t tree) {
+            return link.is_leaf() ? TopLink::leaf(static_cast<uint32_t>(first_leaf[tree] + link.index()))
+                                  : TopLink::inner(static_cast<uint32_t>(first_inner[tree] + link.index()));
+        };
+        const auto of_top = [&](const TopLink& link) {
+            return link.is_leaf() ? moved(subtrees_[link.index()].root, link.index()) : link;
+        };
+        result.tree.root = of_top(top.root);
+        result.tree.inner.resize(first_inner.back());
+        result.leaf_first.resize(first_leaf.back());
+        for (size_t i = 0; i < top.inner.size(); ++i)
+            result.tree.inner[i] = {of_top(top.inner[i][0]), of_top(top.inner[i][1])};
+        tbb::parallel_for(size_t{0}, subtrees_.size(), [&](size_t t) {
+            const Subtree& tree = subtrees_[t];
+            for (size_t i = 0; i < tree.inner.size(); ++i)
+                result.tree.inner[first_inner[t] + i] = {moved(tree.inner[i][0], t),
+                                                         moved(tree.inner[i][1], t)};
+            std::ranges::copy(tree.leaf_first,
+                              result.leaf_first.begin() + static_cast<std::ptrdiff_t>(first_leaf[t]));
+        });
+    }
+
     std::span<const CodedItem> order_;
     size_t leaf_below_;
-    SpatialTopology& result_;
+    std::vector<Subtree> subtrees_;
 };
 
 }  // namespace
@@ -83,8 +138,8 @@ SpatialTopology build_linear_topology(std::span<const SahItem> items, size_t lea
         tbb::parallel_for(size_t{0}, items.size(), [&](size_t i) {
             order[i] = {morton_code(items[i].centroid(), centroids), static_cast<uint32_t>(i)};
         });
-        tbb::parallel_sort(order.begin(), order.end());
-        result.tree.root = LinearBuilder(order, leaf_below, result).build(0, items.size());
+        sort_by_code(order, 3 * kMortonBits);
+        LinearBuilder(order, leaf_below).build(result);
         result.references.resize(items.size());
         tbb::parallel_for(size_t{0}, items.size(),
                           [&](size_t i) { result.references[i] = items[order[i].item]; });

@@ -30,6 +30,7 @@ class MovingTree final : public ListTree {
 
   private:
     struct Sources;
+    struct LeafBoxes;
 
     void build();
     /// Says which node is which leaf, and which ones are below which.
@@ -38,12 +39,14 @@ class MovingTree final : public ListTree {
     bool lists_hold(const Grids& grids) const;
     /// Bounds all nodes.
     void bound(const Sources& sources);
-    void bound_leaf(const Sources& sources, size_t node);
-    /// Bounds a node that is inner, and all inner ones below it, by their children.
-    void bound_below(size_t node, int depth);
-    /// What stats() say of the surface area heuristic. A node is met with the ratio of its area to the
-    /// root's, areas being means of the shutter; a step costs as much as a test.
-    double sah_cost() const;
+    void bound_leaf(const Sources& sources, size_t node, LeafBoxes& boxes);
+    /// Bounds a node and all below it. Returns the sum of their mean areas, each times the steps that it
+    /// takes: one, or of a leaf its tests.
+    double bound_below(const Sources& sources, size_t node, int depth, LeafBoxes& boxes);
+    /// The area of a node's box, as a mean of the shutter but for a factor. A node is met with the ratio of
+    /// its area to the root's, which is what stats() say of the surface area heuristic; a step costs as much
+    /// as a test.
+    double mean_area(size_t node) const;
 
     MovingTreeOptions options_;
 };

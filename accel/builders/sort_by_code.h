@@ -1,0 +1,19 @@
+/// Sorting by Morton codes: in the time of a few passes, not of comparisons.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace trapeze {
+
+/// A code and the place of its item: what is sorted, for items are larger.
+struct CodedItem {
+    uint64_t code;
+    uint32_t item;
+};
+
+/// Sorts by codes, which are below 2^bits; what has one code stays in its order. In parallel, by radix; what
+/// comes out does not depend on threads. Takes as much memory again while it sorts.
+void sort_by_code(std::vector<CodedItem>& items, int bits);
+
+}  // namespace trapeze
