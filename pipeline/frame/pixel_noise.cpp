@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/scene/scene.h"
+
 namespace trapeze {
 namespace {
 
