@@ -60,11 +60,11 @@ struct Vertices {
 };
 
 /// Fills in the (nu + 1) x (nv + 1) vertices of a block. Neighbours share most of them: moving each vertex
-/// once instead of four times is why blocks are tested as a whole. kMoves: grid.moves().
-template <bool kMoves>
+/// once instead of four times is why blocks are tested as a whole. kMotion: grid.moves().
+template <bool kMotion>
 inline void gather(const Grid& grid, const GridBlock& block, const TraceRay& ray, Vertices& out) {
     // Three planes of positions, then (6 planes a segment) three of what a segment adds to them.
-    const MotionSegment s = kMoves ? segment_at(ray.axis.time, grid.key_count) : MotionSegment{};
+    const MotionSegment s = kMotion ? segment_at(ray.axis.time, grid.key_count) : MotionSegment{};
     const size_t plane_size = grid.shape.plane_size();
     const float* first = grid.plane(s.index, 0);
     const float* px = first + ray.planes[0] * plane_size;
@@ -75,7 +75,7 @@ inline void gather(const Grid& grid, const GridBlock& block, const TraceRay& ray
     for (int j = 0; j <= block.nv; ++j)
         for (int i = 0; i <= block.nu; ++i, ++n) {
             const int at = grid.shape.tiled_index(block.u + i, block.v + j);
-            if constexpr (kMoves) {
+            if constexpr (kMotion) {
                 out.x[n] = position_at(px[at], px[at + to_delta], s.local);
                 out.y[n] = position_at(py[at], py[at + to_delta], s.local);
                 out.z[n] = position_at(pz[at], pz[at + to_delta], s.local);

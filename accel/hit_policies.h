@@ -72,6 +72,8 @@ struct HitsUntilOpaque {
     }
 
   private:
+    /// Leaves the nearest `most` hits, in linear time. The farthest of these becomes `last`, unless an opaque
+    /// hit in front of it ends the ray already.
     void drop_far(TraceRay& ray) {
         const auto end = hits.begin() + static_cast<std::ptrdiff_t>(most);
         std::nth_element(hits.begin(), end - 1, hits.end(), in_front);

@@ -7,6 +7,7 @@
 #include "core/grids_harness.h"
 #include "core/noise_harness.h"
 #include "core/ray_query.h"
+#include "core/stats.h"
 
 namespace trapeze::testing {
 

@@ -47,6 +47,8 @@ HWY_AFTER_NAMESPACE();
 namespace trapeze {
 namespace {
 
+using testing::for_each_target;
+
 HWY_EXPORT(test_rays);
 
 constexpr size_t kRays = 64;

@@ -4,7 +4,7 @@
 namespace trapeze {
 
 /// What tells rays of a pixel apart, besides their places in it. Templates take both flags in this order, as
-/// kMoves (or kMotion) and kLens.
+/// kMotion and kLens.
 struct RayBlur {
     bool motion = false;  ///< their times
     bool lens = false;    ///< where they start

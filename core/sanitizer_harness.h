@@ -1,7 +1,7 @@
 /// Whether a test runs under the address sanitizer, which takes memory of its own.
 #pragma once
 
-namespace trapeze {
+namespace trapeze::testing {
 
 #if defined(__has_feature)
 #define TRAPEZE_HAS_FEATURE(name) __has_feature(name)
@@ -15,4 +15,4 @@ inline constexpr bool kSanitized =
     false;
 #endif
 
-}  // namespace trapeze
+}  // namespace trapeze::testing

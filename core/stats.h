@@ -65,6 +65,9 @@ struct BuildStats {
     /// Where micropolygons may be in several leaves: how often they are in all, how often more than once, and
     /// how many nodes were cut for it.
     uint64_t tree_references = 0, tree_duplicates = 0, tree_splits = 0;
+    /// Of a k-d tree for motion blur: the duplicates that planes made because something moves across them,
+    /// and of how many micropolygons that is true [Yang17 table 2].
+    uint64_t tree_guests = 0, tree_incoherent = 0;
     /// Tests and steps that a random line through the root's box is expected to need, by the surface area
     /// heuristic; 0: not counted.
     double tree_sah_cost = 0;
@@ -77,6 +80,7 @@ struct BuildStats {
         tree_bytes += o.tree_bytes, tree_nodes += o.tree_nodes, tree_leaves += o.tree_leaves;
         tree_references += o.tree_references, tree_duplicates += o.tree_duplicates;
         tree_splits += o.tree_splits, lacked_budget |= o.lacked_budget;
+        tree_guests += o.tree_guests, tree_incoherent += o.tree_incoherent;
         tree_sah_cost += o.tree_sah_cost;
         setup_seconds += o.setup_seconds, phases += o.phases;
         return *this;

@@ -22,6 +22,7 @@ namespace trapeze {
 namespace {
 
 using testing::every_method;
+using testing::for_each_target;
 using testing::GridMaker;
 using testing::Noise;
 using testing::TestFrame;
@@ -373,7 +374,7 @@ TEST_P(Agreement, TheTreesOfOtherPapersFindWhatBruteForceFinds) {
     const auto truth = resolve(scene(), "bruteforce");
     for (const std::string tree :
          {"mbkd", "mbkd,duplicates=64,leaf=4,mailbox=off", "mbkd,duplicates=2,plane=0,ray_sort=off",
-          "mbkd,plane=1,weight=whole", "gs", "gs,order=given", "dynamic", "loose",
+          "mbkd,plane=1,weight=whole", "mbkd,guests=return", "gs", "gs,order=given", "dynamic", "loose",
           "loose,place=lowest,levels=9", "loose,skip=off,levels=12"})
         EXPECT_EQ(differing_samples(resolve(scene(), "raytrace:tree=" + tree), truth), 0u) << tree;
 }
@@ -381,8 +382,8 @@ TEST_P(Agreement, TheTreesOfOtherPapersFindWhatBruteForceFinds) {
 TEST_P(Agreement, UpdatedTreesFindWhatBruteForceFinds) {
     const auto truth = resolve(scene(), "bruteforce");
     const GridMaker before = frame_before(scene().maker);
-    for (const std::string tree :
-         {"refit", "dynamic", "dynamic,thinning=1.1", "loose", "loose,place=lowest"}) {
+    for (const std::string tree : {"refit", "dynamic", "dynamic,thinning=1.1", "dynamic,reinsert=root",
+                                   "loose", "loose,place=lowest"}) {
         std::string error;
         const auto sampler = choose_sampler("raytrace:tree=" + tree, "", &error);
         ASSERT_TRUE(sampler) << error;

@@ -8,8 +8,9 @@
 
 namespace trapeze {
 
-/// Upper estimates in bytes, beside the grids themselves. A region of a picture is made as small as it takes
-/// for grids and method to fit the memory. By default: what a tree of a few bytes takes.
+/// Upper estimates in bytes, beside the grids themselves, of what a method takes while it is prepared. They
+/// are asked for before there are grids: pipeline/frame cuts the picture into regions so small that grids and
+/// method fit the memory. By default: what a tree of a few bytes takes.
 struct BuildMemory {
     size_t per_micropolygon = 0;
     size_t per_segment = 20;  ///< for each micropolygon and segment between motion keys, one at least

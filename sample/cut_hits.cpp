@@ -8,9 +8,12 @@
 namespace trapeze {
 namespace {
 
-/// Leaves of solids, each of which holds a point or does not. There are a few at most.
+/// Leaves of solids, each of which holds a point or does not. There are a few at most. A vector is enough, as
+/// a ray is within few solids at a time.
 class Leaves {
   public:
+    /// Enters the set a leaf that is not in it, takes out one that is: two crossings cancel. The order of the
+    /// leaves means nothing.
     void cross(int leaf) {
         const auto at = std::find(all_.begin(), all_.end(), leaf);
         if (at == all_.end()) return all_.push_back(leaf);
@@ -25,7 +28,8 @@ class Leaves {
     std::vector<int> all_;
 };
 
-/// What is known of a sample's list, of which a part is asked for.
+/// What is known of a sample's list, of which a part is asked for. One is used for sample after sample, so
+/// that its vectors keep their memory.
 struct CutList {
     Leaves before, after;  ///< crossed an odd number of times in front of that part, and from there on
     bool ends_opaque = false;
@@ -44,7 +48,7 @@ struct CutList {
     Leaves& holding() { return ends_opaque ? before : after; }
 };
 
-/// A tile that a method is asked for.
+/// A tile that a method is asked for. References are the caller's, for one call of resolve().
 struct AskedTile {
     const SampleTile& samples;
     LayerWindow window;
@@ -52,12 +56,14 @@ struct AskedTile {
     SampleScratch& scratch;
     SampleStats& stats;
 
+    /// Whether a hit is in the part of its sample's list that this pass is to give.
     bool wants(size_t s, const Hit& hit) const {
         return window.behind.empty() || in_front(window.behind[s], hit);
     }
 };
 
-/// A thread's.
+/// A thread's. It lasts from tile to tile: `group` remembers how many lists fitted the room together, and is
+/// doubled for the next tile.
 struct CutScratch {
     std::vector<uint32_t> wanted;  ///< samples
     std::vector<Hit> behind;       ///< of the method's own passes
@@ -113,8 +119,10 @@ class CutVisibility : public Visibility {
 
   private:
     const Grid& grid_of(const Hit& hit) const { return grids_.grids[MicropolygonId::unpack(hit.id).grid]; }
+    /// The leaf of the solid tree that a micropolygon borders; negative where its primitive is in none.
     int solid_of(const Hit& hit) const { return scene_.primitives[grid_of(hit).primitive].solid; }
 
+    /// Planes are in camera space, where a hit's place follows from its ray and its depth.
     bool is_cut_away(const AxisRay& ray, const Hit& hit) const {
         const V3f at(ray.ox + ray.ux * hit.depth, ray.oy + ray.uy * hit.depth, hit.depth);
         return std::ranges::any_of(scene_.clipping_planes, [&](const ClippingPlane& plane) {
@@ -122,6 +130,8 @@ class CutVisibility : public Visibility {
         });
     }
 
+    /// Planes know no inside: each hit stands or falls by itself, in place, without a look at the rest of its
+    /// list.
     void cut_by_planes(const SampleTile& samples, HitBuffer& hits) const {
         if (scene_.clipping_planes.empty()) return;
         uint32_t kept = 0;
@@ -158,11 +168,14 @@ class CutVisibility : public Visibility {
         return true;
     }
 
+    /// Sets the state to what holds the point where the part of the list begins.
     static void start(CutList& list, SolidState& state) {
         state.reset();
         for (const int leaf : list.holding()) state.cross(leaf);
     }
 
+    /// Asks the method for whole lists of as many samples as fit the room together. A group that does not fit
+    /// is halved and asked again; a single sample that does not is walked in passes.
     void keep_by_groups(const AskedTile& asked, SolidState& state, CutScratch& own) const {
         const std::span<const uint32_t> wanted(own.wanted);
         // Half of the room is for what is found too far behind.
@@ -246,6 +259,8 @@ class CutVisibility : public Visibility {
 
 }  // namespace
 
+/// Levels of detail are inside of this (Sampler::prepare): a level that a sample does not see must not open
+/// or close a solid for it.
 std::unique_ptr<Visibility> with_cuts(std::unique_ptr<Visibility> method, const RenderContext& context,
                                       const Grids& grids) {
     const Scene* scene = context.scene;

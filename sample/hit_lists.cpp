@@ -4,10 +4,14 @@
 
 namespace trapeze {
 
+/// Asked once when a method is prepared. The answer chooses between two forms of resolve(): the nearest hit
+/// alone, or lists.
 bool every_grid_is_opaque(const Grids& grids) {
     return std::all_of(grids.grids.begin(), grids.grids.end(), [](const Grid& grid) { return grid.opaque; });
 }
 
+/// Samples without a hit get an empty range, so that `first` always has an entry for each sample and one for
+/// the end.
 void buffer_of_nearest(const SampleScratch& scratch, size_t sample_count, HitBuffer& hits) {
     hits.hits.clear();
     hits.first.resize(sample_count + 1);
@@ -20,7 +24,8 @@ void buffer_of_nearest(const SampleScratch& scratch, size_t sample_count, HitBuf
 
 namespace {
 
-/// Leaves of each sorted list as many hits as are wanted, and says where lists end.
+/// Leaves of each sorted list as many hits as are wanted, and says where lists end. In place: lists only move
+/// towards the front. Where a list was cut, the next pass asks for what is behind its last hit.
 void cut_lists(SampleScratch& scratch, size_t sample_count, HitBuffer& hits) {
     LooseHits& found = scratch.found;
     const uint32_t most = found.window().most;
@@ -42,7 +47,8 @@ void cut_lists(SampleScratch& scratch, size_t sample_count, HitBuffer& hits) {
 
 }  // namespace
 
-/// A counting sort by sample, leaving out what an opaque hit hides; then each sample's list by depth.
+/// A counting sort by sample, leaving out what an opaque hit hides; then each sample's list by depth. Lists
+/// of a sample are short, so that sorting each costs less than one sort of all by sample and depth.
 void buffer_of_loose_hits(SampleScratch& scratch, size_t sample_count, HitBuffer& hits) {
     const std::span<const LooseHits::Entry> found = scratch.found.entries();
     const auto visible = [&](const LooseHits::Entry& entry) {
@@ -62,6 +68,7 @@ void buffer_of_loose_hits(SampleScratch& scratch, size_t sample_count, HitBuffer
     cut_lists(scratch, sample_count, hits);
 }
 
+/// Lists that are cut may still be enough, where the caller wants no more layers than they hold.
 bool holds_all(const SampleScratch& scratch, const HitBuffer& hits, uint32_t most) {
     if (!scratch.found.is_cut()) return true;
     for (size_t s = 0; s < hits.size(); ++s)

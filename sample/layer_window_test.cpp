@@ -12,6 +12,7 @@
 namespace trapeze {
 namespace {
 
+using testing::for_each_target;
 using testing::GridMaker;
 using testing::TestFrame;
 

@@ -7,6 +7,8 @@
 namespace trapeze {
 
 /// Multiples of the golden ratio, of which any number in a row is spread evenly, from a place of the pixel's.
+/// The shift of the pixel's is hashed, and the steps are 32-bit words that wrap around: adding the golden
+/// ratio's fraction modulo 1 without a division.
 float detail_number(uint32_t seed, int px, int py, int sample) {
     constexpr uint32_t kGoldenRatio = 0x9e3779b9u, kDimension = 0x6c6f64u;
     const uint32_t first = hash(seed, kDimension, static_cast<uint32_t>(px), static_cast<uint32_t>(py));
@@ -15,7 +17,9 @@ float detail_number(uint32_t seed, int px, int py, int sample) {
 
 namespace {
 
-/// Another method's hits without those of primitives whose range of numbers the sample's is not in.
+/// Another method's hits without those of primitives whose range of numbers the sample's is not in. Only
+/// finished lists are thinned, so that a method needs to know nothing of levels; it pays for hits that are
+/// then dropped. Grids in transition count as not opaque for that reason.
 class DetailVisibility : public Visibility {
   public:
     DetailVisibility(std::unique_ptr<Visibility> method, const RenderContext& context, const Grids& grids)
@@ -50,6 +54,7 @@ class DetailVisibility : public Visibility {
         return detail_number(seed_, pixel.x, pixel.y, static_cast<int>(samples.number_in_pixel(s)));
     }
 
+    /// A primitive outside any transition has the range of all numbers.
     bool sees(float number, const Hit& hit) const {
         return seen_[grids_.grids[MicropolygonId::unpack(hit.id).grid].primitive].contain(number);
     }
@@ -62,6 +67,8 @@ class DetailVisibility : public Visibility {
 
 }  // namespace
 
+/// Methods know nothing of levels of detail: where some primitive is seen by a part of the samples alone, a
+/// wrapper stands before the method. Scenes without any pay nothing.
 std::unique_ptr<Visibility> with_levels_of_detail(std::unique_ptr<Visibility> method,
                                                   const RenderContext& context, const Grids& grids) {
     if (!method || !context.scene) return method;

@@ -15,12 +15,15 @@ T* symbol_of(void* handle, const char* name) {
     return reinterpret_cast<T*>(dlsym(handle, name));
 }
 
+/// dlerror() is null where nothing has failed since it was last asked.
 std::string loader_message() {
     const char* const message = dlerror();
     return message ? message : "the loader does not say why";
 }
 
-/// What is wrong with a loaded file, before anything of it is called; empty: nothing.
+/// What is wrong with a loaded file, before anything of it is called; empty: nothing. Symbols are looked up
+/// by name first and none is called, since code of another version may do anything; the version is compared
+/// before the layout, for its message says more.
 std::string problem_of(void* handle) {
     const char* const version = symbol_of<const char>(handle, "trapeze_plugin_version");
     if (!version || !symbol_of<void>(handle, "trapeze_plugin_method"))
@@ -35,6 +38,9 @@ std::string problem_of(void* handle) {
 
 }  // namespace
 
+/// RTLD_NOW makes missing symbols an error here and not in the midst of a frame; RTLD_LOCAL keeps plugins
+/// from seeing each other. A file that is refused is closed again, one that is taken stays open to the end of
+/// the process, for the table points into it.
 bool load_plugin(const std::string& file, std::string* error) {
     const auto fail = [&](const std::string& problem) {
         *error = "\"" + file + "\": " + problem;

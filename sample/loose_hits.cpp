@@ -10,6 +10,7 @@ constexpr size_t kLeastRoom = 4096;
 
 }  // namespace
 
+/// Samples that want nothing have the depth of kBehindAll, infinity, and so do not count.
 float LayerWindow::least_depth() const {
     float least = std::numeric_limits<float>::infinity();
     if (behind.empty()) return -least;
@@ -17,6 +18,8 @@ float LayerWindow::least_depth() const {
     return least;
 }
 
+/// The room is the window's, or less where few layers are wanted. `full_` starts at the capacity that is
+/// there already, so that no tile allocates what an earlier one has.
 void LooseHits::begin(size_t sample_count, const LayerWindow& window) {
     window_ = window;
     sample_count_ = sample_count;
@@ -29,7 +32,8 @@ void LooseHits::begin(size_t sample_count, const LayerWindow& window) {
     cut_at_.clear();
 }
 
-/// Makes room for a hit; false when the hit does not count any more.
+/// Makes room for a hit; false when the hit does not count any more. Memory is taken by doubling up to the
+/// limit; only then are far hits given up, which costs another pass.
 bool LooseHits::make_room(uint32_t sample, const Hit& hit) {
     if (entries_.capacity() < room_) {
         entries_.reserve(std::min(room_, std::max(kLeastRoom, 2 * entries_.capacity())));
@@ -40,7 +44,8 @@ bool LooseHits::make_room(uint32_t sample, const Hit& hit) {
     return cut_at_.empty() || !in_front(cut_at_[sample], hit);
 }
 
-/// Keeps as many hits of each sample as half of the room has place for, the nearest; one at least.
+/// Keeps as many hits of each sample as half of the room has place for, the nearest; one at least. Half of
+/// the room, so that the sort is not needed again after a few more hits.
 void LooseHits::drop_far() {
     std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
         return a.sample != b.sample ? a.sample < b.sample : in_front(a.hit(), b.hit());
@@ -67,6 +72,8 @@ void LooseHits::drop_far() {
     }
 }
 
+/// The nearest of all cuts of a sample counts: what was dropped behind it cannot be told from what was never
+/// found.
 void LooseHits::cut(uint32_t sample, const Hit& at) {
     if (cut_at_.empty()) cut_at_.assign(sample_count_, kBehindAll);
     if (in_front(at, cut_at_[sample])) cut_at_[sample] = at;

@@ -36,6 +36,7 @@ struct LayerWindow {
 /// each sample is dropped, and nothing behind these is taken in again.
 class LooseHits {
   public:
+    /// A hit with the sample that it belongs to; in the order in which they came.
     struct Entry {
         float depth;
         uint32_t sample;
@@ -69,6 +70,7 @@ class LooseHits {
     size_t bytes() const { return entries_.capacity() * sizeof(Entry); }
 
   private:
+    /// Whether the hit may be added; what is far goes first when there are too many.
     bool make_room(uint32_t sample, const Hit& hit);
     void drop_far();
 

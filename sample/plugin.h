@@ -14,7 +14,7 @@
 namespace trapeze {
 
 /// Tells apart structures of other sizes than these headers': what a build of the same version, but of other
-/// sources, may have.
+/// sources, may have. A hash and no proof: fields of the same size that change places go unnoticed.
 constexpr uint64_t plugin_layout() {
     uint64_t layout = 0;
     for (const size_t size :

@@ -37,7 +37,8 @@ class OwnScratch {
 };
 
 /// One a thread, used again from tile to tile, by whatever methods and for whatever grids. What it holds is
-/// what hit_lists.h makes hit buffers from.
+/// what hit_lists.h makes hit buffers from. Lists keep their capacity from tile to tile; nothing in them
+/// survives a call of resolve() but what the method itself keeps in `own`.
 struct SampleScratch {
     SampleHeat* heat = nullptr;  ///< when set, methods add what each sample cost
     LayerWindow window;          ///< the hits that are wanted; by default all

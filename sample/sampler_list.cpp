@@ -2,6 +2,8 @@
 
 namespace trapeze {
 
+/// The first error ends it: a comparison of some of the methods that were asked for would be taken for one of
+/// all.
 std::optional<std::vector<Sampler>> parse_samplers(std::string_view text, std::string_view pattern,
                                                    std::string* error) {
     constexpr std::string_view kSeparators = " \t\n;";
@@ -21,6 +23,8 @@ std::optional<std::vector<Sampler>> parse_samplers(std::string_view text, std::s
     return samplers;
 }
 
+/// Methods that do not honour the pattern are left out without a word, which is what asking for all that do
+/// means.
 std::vector<Sampler> default_samplers(std::string_view pattern, bool with_references) {
     std::vector<Sampler> samplers;
     for (const VisibilityMethod& method : visibility_methods()) {

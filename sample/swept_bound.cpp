@@ -12,6 +12,8 @@ constexpr double kEverywhere = std::numeric_limits<double>::infinity();
 /// Samples lie this far outside the image at most (filters).
 constexpr double kBorderPixels = 1024;
 
+/// Along one axis, in the image plane at depth 1 (perspective) or in camera space (orthographic); doubles, so
+/// that only the predicate's own rounding has to be covered.
 struct PlaneRange {
     double min, max;
 };
@@ -24,6 +26,8 @@ PlaneRange raster_range(PlaneRange plane, double grow, double scale, double offs
 
 }  // namespace
 
+/// How far from the axis, at depth 1, any ray of the picture and its border can be; the lens moves it by its
+/// radius over the distance of focus.
 double ray_reach(const Camera& camera) {
     const double x =
         std::abs(camera.plane_scale_x) * (camera.width + kBorderPixels) + std::abs(camera.plane_offset_x);
@@ -32,6 +36,7 @@ double ray_reach(const Camera& camera) {
     return std::max(x, y) + camera.lens_radius * (1 + kRasterRounding) / camera.focal_distance;
 }
 
+/// Infinite both ways: intersected with any pixels it gives all of them.
 RasterBox RasterBox::everything() {
     return {-kEverywhere, -kEverywhere, kEverywhere, kEverywhere};
 }
@@ -40,6 +45,8 @@ RasterBox RasterBox::nothing() {
     return {kEverywhere, kEverywhere, -kEverywhere, -kEverywhere};
 }
 
+/// Perspective takes lines to lines, so the places of a moving corner in the image plane lie between those at
+/// its ends, as long as both are in front of the eye.
 void SweptBound::add(float xf, float yf, float zf) {
     const double x = xf, y = yf, z = zf;
     z_min_ = std::min(z_min_, z), z_max_ = std::max(z_max_, z);
@@ -52,6 +59,8 @@ void SweptBound::add(float xf, float yf, float zf) {
     py_min_ = std::min(py_min_, y / z), py_max_ = std::max(py_max_, y / z);
 }
 
+/// The circle of confusion is linear in 1 / z (orthographic: in z) and so largest at one of both ends of the
+/// depths; the box grows by it, and by what the predicate and the camera's rays may round.
 RasterBox SweptBound::raster(const Camera& camera) const {
     if (z_max_ < camera.near_clip || z_min_ > camera.far_clip) return RasterBox::nothing();
     if (!(absolute_max_ < kBoundable)) return RasterBox::everything();
@@ -73,6 +82,8 @@ RasterBox SweptBound::raster(const Camera& camera) const {
     return {rx.min, ry.min, rx.max, ry.max};
 }
 
+/// The end of a segment is computed as the predicate does it, by position_at(), and not taken from the next
+/// segment's start: the two may differ by a rounding.
 void add_vertex(const Grid& grid, int i, int j, SweptBound& bound) {
     const int at = grid.shape.tiled_index(i, j);
     for (int segment = 0; segment < segment_count(grid.key_count); ++segment) {
@@ -93,6 +104,8 @@ RasterBox raster_bound(const Grid& grid, const Camera& camera) {
     return bound.raster(camera);
 }
 
+/// Boxes are closed and may be infinite, so they are clamped in doubles before anything becomes an int. A
+/// sample on a pixel's left or upper edge is that pixel's.
 PixelRect pixels_within(const RasterBox& box, const PixelRect& pixels) {
     const auto floor_in = [](double at, int low, int high) {
         return static_cast<int>(

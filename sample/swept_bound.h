@@ -15,7 +15,8 @@ inline constexpr double kRasterRounding = 0x1p-18;
 /// The largest coordinate of the image plane that a sample may have, the lens' part of slopes included.
 double ray_reach(const Camera& camera);
 
-/// Raster space; empty when min > max.
+/// Raster space; empty when min > max. Closed, in doubles: bounds are compared with pixels and not with
+/// samples, and may be infinite.
 struct RasterBox {
     double min_x, min_y, max_x, max_y;
 

@@ -11,7 +11,8 @@ namespace trapeze {
 
 namespace {
 
-/// The rows, and those that plugins have added.
+/// The rows of visibility_methods.def, and those that plugins have added. Made at the first call, so that it
+/// is there however early a plugin asks.
 std::vector<VisibilityMethod>& method_table() {
     static std::vector<VisibilityMethod> methods = {
 #define TRAPEZE_METHOD(row) row(),
@@ -30,6 +31,8 @@ const std::vector<VisibilityMethod>& visibility_methods() {
     return method_table();
 }
 
+/// Names are letters and digits because a spec's punctuation (":", ",", "=") and lists of methods (" ", ";")
+/// take the rest.
 bool add_visibility_method(const VisibilityMethod& method, std::string* error) {
     const auto is_part_of_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
     if (method.name.empty() || !std::ranges::all_of(method.name, is_part_of_name))
@@ -43,6 +46,8 @@ bool add_visibility_method(const VisibilityMethod& method, std::string* error) {
     return false;
 }
 
+/// Every method, a plugin's too, is wrapped alike. A wrapper that has nothing to do returns the method
+/// itself, so that scenes without solids or levels of detail pay nothing.
 std::unique_ptr<Visibility> Sampler::prepare(const RenderContext& context, const Grids& grids) const {
     const VisibilityMethod& row = *find_named(visibility_methods(), method.name);
     auto visibility = row.prepare({context, grids, method});
@@ -54,6 +59,7 @@ BuildMemory Sampler::build_memory() const {
     return row.build_memory ? row.build_memory(method) : BuildMemory();
 }
 
+/// Levels are the stratified pattern's alone, and come as lists of pixels.
 bool Sampler::takes_levels() const {
     return find_named(visibility_methods(), method.name)->takes_lists && pattern.name == "stratified";
 }
@@ -62,6 +68,8 @@ std::string Sampler::name() const {
     return spec_text(method, find_named(visibility_methods(), method.name)->options);
 }
 
+/// Whoever gets a Sampler may rely on it: name, options and pattern exist, and the method's libraries are
+/// there (VisibilityMethod::check). All later look-ups by name succeed.
 std::optional<Sampler> choose_sampler(std::string_view method, std::string_view pattern, std::string* error) {
     const auto method_spec = parse_spec_of(visibility_methods(), "visibility method", method, error);
     if (!method_spec) return {};

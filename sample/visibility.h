@@ -19,7 +19,9 @@
 
 namespace trapeze {
 
-/// A method with what it has prepared for some grids. Keeps references to the context and the grids.
+/// A method with what it has prepared for some grids. Keeps references to the context and the grids. It is
+/// made by VisibilityMethod::prepare once for a region and used by all threads; whatever a call changes is in
+/// its scratch.
 class Visibility {
   public:
     virtual ~Visibility() = default;
@@ -29,6 +31,7 @@ class Visibility {
     /// stats.
     virtual void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                          SampleStats& stats) const = 0;
+    /// For reports; asked once, after preparation.
     virtual BuildStats build_stats() const { return {}; }
 
     /// Takes the grids of the next frame of a sequence in place of those that it was prepared for, and
@@ -89,6 +92,8 @@ struct VisibilityMethod {
     BuildMemory (*build_memory)(const MethodSpec& method) = nullptr;
 };
 
+/// Which methods this build has, in the order of the table; plugins' rows come last. Rows stay where they are
+/// once work has begun: plugins are loaded before.
 const std::vector<VisibilityMethod>& visibility_methods();
 
 /// A method and a pattern, checked against the tables and each other.
@@ -126,6 +131,7 @@ VisibilityMethod embree_method();  ///< in the table where Embree was found at b
 inline std::string stratified_pattern(const MethodSpec&) {
     return "stratified";
 }
+/// For VisibilityMethod::honours: the samples may lie anywhere.
 inline bool any_pattern(const MethodSpec&, const MethodSpec&) {
     return true;
 }

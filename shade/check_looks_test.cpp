@@ -10,6 +10,10 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using testing::number;
+using testing::ShaderFolder;
+using testing::ShadingScene;
+using testing::text;
 
 /// A scene whose surface is a shader of this text.
 class CheckLooks : public ::testing::Test {
@@ -26,7 +30,7 @@ class CheckLooks : public ::testing::Test {
     }
 
     ShaderFolder folder_;
-    TestScene scene_;
+    ShadingScene scene_;
 };
 
 TEST_F(CheckLooks, ShadersThatAreNotThereAreErrors) {

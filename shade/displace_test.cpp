@@ -8,12 +8,18 @@
 namespace trapeze {
 namespace {
 
+using testing::expect_near_triple;
+using testing::finite;
+using testing::number;
+using testing::ShaderFolder;
+using testing::ShadingScene;
+
 V3f moved(const ShadingGrid& after, const ShadingGrid& before, size_t i, int key = 0) {
     return after.P[key].at(i) - before.P[key].at(i);
 }
 
 TEST(Displacement, SineWavesFollowTheirFormulaInShaderSpace) {
-    TestScene scene;
+    ShadingScene scene;
     scene.attributes->displacement_bound = 1;
     ShaderInstance& waves =
         scene.displacement("sinewaves", {number("amplitude", 0.3f), number("frequency", 2)});
@@ -24,13 +30,13 @@ TEST(Displacement, SineWavesFollowTheirFormulaInShaderSpace) {
         const V3f p = (before.P[0].at(i) - V3f(0.1f, 0, 0)) / 2;
         const auto wave = [](float x) { return std::sin(2 * M_PI * 2 * x); };
         const double height = 2 * 0.3 * (wave(p.x) + wave(p.y) + wave(p.z)) / 3;
-        expect_near(moved(after, before, i), V3f(0, 0, -static_cast<float>(height)), 2e-6f);
+        expect_near_triple(moved(after, before, i), V3f(0, 0, -static_cast<float>(height)), 2e-6f);
     }
     EXPECT_TRUE(after.displaced);
 }
 
 TEST(Displacement, NormalsFollowTheMovedSurface) {
-    TestScene scene;
+    ShadingScene scene;
     scene.attributes->displacement_bound = 1;
     scene.displacement("sinewaves", {number("amplitude", 0.1f), number("frequency", 1)});
     const ShadingGrid after = scene.shaded(scene.grid(16, 16));
@@ -42,13 +48,13 @@ TEST(Displacement, NormalsFollowTheMovedSurface) {
             const V3f expected = V3f(-slope * std::cos(2 * static_cast<float>(M_PI) * p.x),
                                      -slope * std::cos(2 * static_cast<float>(M_PI) * p.y), -1)
                                      .normalized();
-            expect_near(after.N.at(after.shape.row_index(i, j)), expected, 0.01f);
+            expect_near_triple(after.N.at(after.shape.row_index(i, j)), expected, 0.01f);
             EXPECT_EQ(after.Ng.at(after.shape.row_index(i, j)), after.N.at(after.shape.row_index(i, j)));
         }
 }
 
 TEST(Displacement, OrientationIsKept) {
-    TestScene scene;
+    ShadingScene scene;
     scene.attributes->displacement_bound = 1;
     scene.displacement("dented");
     ShadingGrid inside = scene.grid(8, 8);
@@ -65,7 +71,7 @@ TEST(Displacement, OrientationIsKept) {
 /// Two grids side by side with different rates that share three vertices of an edge at all keys.
 TEST(Displacement, SharedVerticesStayShared) {
     for (const char* name : {"dented", "sinewaves"}) {
-        TestScene scene;
+        ShadingScene scene;
         scene.attributes->displacement_bound = 10;
         scene.displacement(name, {number("amplitude", 0.7f), number("frequency", 3.3f)});
         M44f turn;
@@ -93,7 +99,7 @@ TEST(Displacement, SharedVerticesStayShared) {
 }
 
 TEST(Displacement, TurnsWithThePrimitive) {
-    TestScene scene;
+    ShadingScene scene;
     scene.attributes->displacement_bound = 10;
     scene.displacement("dented", {number("amplitude", 0.5f)});
     M44f quarter;
@@ -102,12 +108,12 @@ TEST(Displacement, TurnsWithThePrimitive) {
     const ShadingGrid before = scene.grid(4, 4, 2), after = scene.shaded(before);
     for (size_t i = 0; i < before.vertex_count(); ++i) {
         const V3f first = moved(after, before, i), last = moved(after, before, i, 1);
-        expect_near(last, V3f(first.z, 0, 0), 1e-6f);
+        expect_near_triple(last, V3f(first.z, 0, 0), 1e-6f);
     }
 }
 
 TEST(Displacement, KeysBetweenPosesAreInterpolated) {
-    TestScene scene;
+    ShadingScene scene;
     scene.attributes->displacement_bound = 10;
     scene.displacement("sinewaves", {number("amplitude", 0.5f)});
     M44f larger;
@@ -115,13 +121,13 @@ TEST(Displacement, KeysBetweenPosesAreInterpolated) {
     scene.scene.primitives[0].camera_from_object = {M44f(), larger};
     const ShadingGrid before = scene.grid(4, 4, 3), after = scene.shaded(before);
     for (size_t i = 0; i < before.vertex_count(); ++i) {
-        expect_near(moved(after, before, i, 1), moved(after, before, i) * 2.0f, 1e-6f);
-        expect_near(moved(after, before, i, 2), moved(after, before, i) * 3.0f, 1e-6f);
+        expect_near_triple(moved(after, before, i, 1), moved(after, before, i) * 2.0f, 1e-6f);
+        expect_near_triple(moved(after, before, i, 2), moved(after, before, i) * 3.0f, 1e-6f);
     }
 }
 
 TEST(Displacement, BeyondItsBoundIsReportedWithTheBoundNeeded) {
-    TestScene scene;
+    ShadingScene scene;
     scene.attributes->displacement_bound = 0.2f;
     scene.attributes->user.change("displacementbound").set(number("sphere", 0.1f));
     scene.displacement("sinewaves", {number("amplitude", 0.5f), number("frequency", 0.25f)});
@@ -141,7 +147,7 @@ TEST(Displacement, BeyondItsBoundIsReportedWithTheBoundNeeded) {
 }
 
 TEST(Displacement, NullAndZeroNormalsMoveNothing) {
-    TestScene scene;
+    ShadingScene scene;
     scene.displacement("null");
     const ShadingGrid before = scene.grid(), after = scene.shaded(before);
     EXPECT_EQ(after.P[0].c, before.P[0].c);
@@ -155,7 +161,7 @@ TEST(Displacement, NullAndZeroNormalsMoveNothing) {
 }
 
 /// A scene whose surface shader lifts P.
-struct MovingSurface : TestScene {
+struct MovingSurface : ShadingScene {
     ShaderFolder folder;
 
     MovingSurface() {
@@ -173,8 +179,8 @@ TEST(Displacement, BySurfaceShadersWithinTheBound) {
     const ShadingGrid before = scene.grid(), after = scene.shaded(before);
     EXPECT_TRUE(scene.reported.empty()) << scene.reported.front().text;
     for (size_t i = 0; i < before.vertex_count(); ++i) {
-        expect_near(moved(after, before, i), V3f(0, 0, -0.5f * before.s[i]), 1e-6f);
-        expect_near(after.Ci.at(i), V3f(0, 0, -0.5f * before.s[i]), 1e-6f);
+        expect_near_triple(moved(after, before, i), V3f(0, 0, -0.5f * before.s[i]), 1e-6f);
+        expect_near_triple(after.Ci.at(i), V3f(0, 0, -0.5f * before.s[i]), 1e-6f);
     }
     EXPECT_TRUE(after.displaced);
     EXPECT_TRUE(Shading(scene.context).displacing_surfaces()(0));
@@ -208,7 +214,7 @@ TEST(Displacement, SurfaceShadersThatLeavePAreNotWarnedOf) {
 }
 
 TEST(Displacement, ToNowhereStays) {
-    TestScene scene;
+    ShadingScene scene;
     scene.displacement("sinewaves", {number("amplitude", 3e38f)}).camera_from_shader.setScale(V3f(10));
     const ShadingGrid before = scene.grid(), after = scene.shaded(before);
     EXPECT_EQ(after.P[0].c, before.P[0].c);

@@ -6,16 +6,17 @@
 namespace trapeze {
 namespace {
 
-using vm::testing::ShaderRun;
+using testing::ShaderRun;
+using testing::ShadingScene;
 
 /// So that the test grid's steps of 1/4 along u and 1/2 along v, at z = 4, are this many pixels.
-void set_pixels(TestScene& scene, float along_u, float along_v) {
+void set_pixels(ShadingScene& scene, float along_u, float along_v) {
     scene.context.camera.plane_scale_x = 1.0f / 4 / 4 / along_u;
     scene.context.camera.plane_scale_y = -1.0f / 2 / 4 / along_v;
 }
 
 struct OneGrid {
-    TestScene scene;
+    ShadingScene scene;
     ShadingGrid grid = scene.grid(4, 2);
     const ShadingGrid* list[1] = {&grid};
     vm::Footprint at(float pixels_u, float pixels_v) {

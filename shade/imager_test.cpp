@@ -6,37 +6,42 @@
 namespace trapeze {
 namespace {
 
+using testing::color;
+using testing::number;
+using testing::shader;
+using testing::ShaderFolder;
+using testing::ShadingScene;
 using Pixels = std::vector<float>;
 
 /// A row of one pixel, or some, after the imager.
-Pixels imaged(const TestScene& scene, Pixels rgba, int x0 = 0, int y = 0) {
+Pixels imaged(const ShadingScene& scene, Pixels rgba, int x0 = 0, int y = 0) {
     const Imager imager(scene.context);
     EXPECT_TRUE(imager.is_there());
     imager.run(x0, y, static_cast<int>(rgba.size() / 4), rgba.data());
     return rgba;
 }
 
-void set_imager(TestScene& scene, std::string name, std::vector<Parameter> parameters = {}) {
+void set_imager(ShadingScene& scene, std::string name, std::vector<Parameter> parameters = {}) {
     scene.scene.options.imager =
         std::make_shared<ShaderInstance>(shader(std::move(name), std::move(parameters)));
 }
 
 TEST(Imager, ClampToAlphaBoundsColoursByAlpha) {
-    TestScene scene;
+    ShadingScene scene;
     set_imager(scene, "clamptoalpha");
     EXPECT_EQ(imaged(scene, {2, 0.25f, -1, 0.5f, 0.5f, 3, 1, 1.5f}),
               (Pixels{0.5f, 0.25f, 0, 0.5f, 0.5f, 1, 1, 1}));
 }
 
 TEST(Imager, BackgroundFillsWhatIsTransparent) {
-    TestScene scene;
+    ShadingScene scene;
     set_imager(scene, "background", {color("bgcolor", {1, 0.5f, 0.25f})});
     EXPECT_EQ(imaged(scene, {0, 0, 0, 0, 0.25f, 0.25f, 0.25f, 0.5f, 1, 0, 0, 1}),
               (Pixels{1, 0.5f, 0.25f, 1, 0.75f, 0.5f, 0.375f, 1, 1, 0, 0, 1}));
 }
 
 TEST(Imager, ABackgroundMayLeaveAlphaAsItIs) {
-    TestScene scene;
+    ShadingScene scene;
     set_imager(scene, "background", {color("bgcolor", {1, 0.5f, 0.25f}), number("bgalpha", 0)});
     EXPECT_EQ(imaged(scene, {0, 0, 0, 0, 0.25f, 0.25f, 0.25f, 0.5f}),
               (Pixels{1, 0.5f, 0.25f, 0, 0.75f, 0.5f, 0.375f, 0.5f}));
@@ -44,7 +49,7 @@ TEST(Imager, ABackgroundMayLeaveAlphaAsItIs) {
 
 /// MOSAICbackground of Blender's exporter, for one.
 TEST(Imager, AMissingOneWithABackgroundsColourIsABackground) {
-    TestScene scene;
+    ShadingScene scene;
     set_imager(scene, "MOSAICbackground", {color("bgcolor", {1, 0.5f, 0.25f}), number("CompositeBlend", 1)});
     EXPECT_EQ(imaged(scene, {0, 0, 0, 0}), (Pixels{1, 0.5f, 0.25f, 1}));
     ASSERT_EQ(scene.reported.size(), 1u);
@@ -52,7 +57,7 @@ TEST(Imager, AMissingOneWithABackgroundsColourIsABackground) {
 }
 
 TEST(Imager, LongRowsAreRunInPartsAlike) {
-    TestScene scene;
+    ShadingScene scene;
     set_imager(scene, "clamptoalpha");
     Pixels row;
     for (int i = 0; i < 3000; ++i) row.insert(row.end(), {static_cast<float>(i), 0.25f, 0, 0.5f});
@@ -61,7 +66,7 @@ TEST(Imager, LongRowsAreRunInPartsAlike) {
 }
 
 TEST(Imager, SeesItsPixelsPlacesAndTime) {
-    TestScene scene;
+    ShadingScene scene;
     const ShaderFolder folder;
     folder.write("show",
                  "imager show() { Ci = color(xcomp(P), ycomp(P), time + 10 * "
@@ -81,7 +86,7 @@ TEST(Imager, SeesItsPixelsPlacesAndTime) {
 }
 
 TEST(Imager, TextureCoordinatesRunOverTheWholePicture) {
-    TestScene scene;
+    ShadingScene scene;
     const ShaderFolder folder;
     folder.write("show", "imager show() { Ci = color(s, t, u - v); alpha = u; }");
     scene.scene.options.search_paths["shader"] = {folder.path()};
@@ -93,7 +98,7 @@ TEST(Imager, TextureCoordinatesRunOverTheWholePicture) {
 }
 
 TEST(Imager, WhatIsNotFiniteBecomesZero) {
-    TestScene scene;
+    ShadingScene scene;
     const ShaderFolder folder;
     folder.write("bad", "imager bad() { Ci = Ci * 1e38 * 1e38; }");
     scene.scene.options.search_paths["shader"] = {folder.path()};
@@ -102,7 +107,7 @@ TEST(Imager, WhatIsNotFiniteBecomesZero) {
 }
 
 TEST(Imager, OneThatIsNotThereIsAnErrorAndOneOfAnotherKindToo) {
-    TestScene scene;
+    ShadingScene scene;
     EXPECT_FALSE(Imager(scene.context).is_there());
     EXPECT_TRUE(scene.reported.empty());
     set_imager(scene, "nosuch");

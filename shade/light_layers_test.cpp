@@ -7,8 +7,14 @@
 namespace trapeze {
 namespace {
 
+using testing::number;
+using testing::point;
+using testing::ShaderFolder;
+using testing::ShadingScene;
+using testing::text;
+
 /// A lit, glowing surface under a light of each of two groups and an ambient one of none.
-struct LitScene : TestScene {
+struct LitScene : ShadingScene {
     ShaderFolder folder;
 
     explicit LitScene(std::vector<std::string> groups) {

@@ -6,13 +6,16 @@
 namespace trapeze {
 namespace {
 
+using testing::ShaderFolder;
+using testing::ShadingScene;
+
 TEST(MadeVariables, AlbedoIsTheColourWithoutLightUnlessAShaderSaysAnother) {
     for (const bool says : {false, true}) {
         ShaderFolder folder;
         folder.write("test", says ? "surface test(output varying color albedo = 0;)"
                                     "{ albedo = color(s, t, .5); Ci = 7; Oi = Os; }"
                                   : "surface test() { Ci = 7; Oi = Os; }");
-        TestScene scene;
+        ShadingScene scene;
         scene.scene.options.search_paths["shader"] = {folder.path()};
         scene.surface("test", {});
         Display display;

@@ -9,7 +9,7 @@
 
 #include "shade/shading.h"
 
-namespace trapeze {
+namespace trapeze::testing {
 
 inline Parameter number(std::string name, float value) {
     return {std::move(name), {StorageClass::Uniform, ValueType::Float, 1}, {value}, {}};
@@ -33,14 +33,14 @@ inline ShaderInstance shader(std::string name, std::vector<Parameter> parameters
     return instance;
 }
 
-struct TestScene {
+struct ShadingScene {
     Scene scene;
     RenderContext context;
     std::vector<Diagnostic> reported;
     Diagnostics diagnostics{[this](const Diagnostic& d) { reported.push_back(d); }};
     std::shared_ptr<Attributes> attributes = std::make_shared<Attributes>();
 
-    TestScene() {
+    ShadingScene() {
         scene.primitives.resize(1);
         scene.primitives[0].attributes = attributes;
         scene.primitives[0].camera_from_object = {M44f()};
@@ -49,7 +49,7 @@ struct TestScene {
         // Pixels smaller than the micropolygons of small grids.
         context.camera.plane_scale_x = 1e-3f, context.camera.plane_scale_y = -1e-3f;
     }
-    TestScene(const TestScene&) = delete;
+    ShadingScene(const ShadingScene&) = delete;
 
     void surface(std::string name, std::vector<Parameter> parameters = {}) {
         attributes->surface =
@@ -112,7 +112,7 @@ struct TestScene {
     ShadingGrid shaded() const { return shaded(grid()); }
 };
 
-inline void expect_near(const V3f& a, const V3f& b, float tolerance, const char* what = "") {
+inline void expect_near_triple(const V3f& a, const V3f& b, float tolerance, const char* what = "") {
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], tolerance) << what << " component " << k;
 }
 
@@ -123,4 +123,4 @@ inline bool finite(const Triples& values) {
     return true;
 }
 
-}  // namespace trapeze
+}  // namespace trapeze::testing

@@ -8,8 +8,13 @@
 namespace trapeze {
 namespace {
 
+using testing::expect_near_triple;
+using testing::shader;
+using testing::ShaderFolder;
+using testing::ShadingScene;
+
 TEST(Shading, UnknownSurfacesAreSaidOnceAndBecomeDefaultsurface) {
-    TestScene scene;
+    ShadingScene scene;
     const ShadingGrid expected = scene.shaded();
     scene.surface("limestone");
     auto second = std::make_shared<Attributes>();
@@ -24,7 +29,7 @@ TEST(Shading, UnknownSurfacesAreSaidOnceAndBecomeDefaultsurface) {
 }
 
 TEST(Shading, UnknownShadersAreReportedWhereTheyAreNamed) {
-    TestScene scene;
+    ShadingScene scene;
     const uint32_t source = scene.diagnostics.add_source("scene.rib");
     scene.light("lamp").location = {source, 12, 3};
     scene.displacement("crumpled").location = {source, 15, 1};
@@ -37,7 +42,7 @@ TEST(Shading, UnknownShadersAreReportedWhereTheyAreNamed) {
 
 TEST(Shading, UndeclaredColoursAreWhatTheShaderSays) {
     const auto shaded = [](ValueType type, int length, std::vector<float> values, size_t warnings) {
-        TestScene scene;
+        ShadingScene scene;
         scene.light("distantlight");
         scene.surface("plastic",
                       {{"specularcolor", {StorageClass::Uniform, type, length}, std::move(values), {}}});
@@ -51,7 +56,7 @@ TEST(Shading, UndeclaredColoursAreWhatTheShaderSays) {
 }
 
 TEST(Shading, ShadersOfOtherMachinesAreFoundByTheirNames) {
-    TestScene scene;
+    ShadingScene scene;
     const ShaderFolder folder;
     folder.write("green", "surface green() { Ci = color(0, 1, 0); Oi = 1; }");
     scene.scene.options.search_paths["shader"] = {folder.path()};
@@ -64,7 +69,7 @@ TEST(Shading, ShadersOfOtherMachinesAreFoundByTheirNames) {
 
 /// As RenderMan's renderers have it: a shader that sets only Oi to 0 in places shows nothing there.
 TEST(Shading, ColoursStartBlackAndOpacitiesAsThePrimitives) {
-    TestScene scene;
+    ShadingScene scene;
     const ShaderFolder folder;
     folder.write("glow", "surface glow() { if (s > 0.5) Ci = Cs; else Oi = 0; }");
     folder.write("sum", "surface sum() { float i; for (i = 0; i < 3; i += 1) Ci += Cs; }");
@@ -78,12 +83,12 @@ TEST(Shading, ColoursStartBlackAndOpacitiesAsThePrimitives) {
     }
     scene.surface("sum");
     const ShadingGrid sum = scene.shaded();
-    expect_near(sum.Ci.at(0), sum.Cs.at(0) * 3.0f, 1e-6f);
+    expect_near_triple(sum.Ci.at(0), sum.Cs.at(0) * 3.0f, 1e-6f);
     EXPECT_EQ(sum.Oi.at(0), sum.Os.at(0));
 }
 
 TEST(Shading, EachPrimitiveHasItsOwnShaders) {
-    TestScene scene;
+    ShadingScene scene;
     scene.surface("constant");
     scene.scene.primitives.push_back(scene.scene.primitives[0]);
     auto second = std::make_shared<Attributes>();
@@ -96,7 +101,7 @@ TEST(Shading, EachPrimitiveHasItsOwnShaders) {
 }
 
 TEST(Shading, ScratchDoesNotRememberEarlierGrids) {
-    TestScene scene;
+    ShadingScene scene;
     scene.surface("plastic");
     scene.light("pointlight");
     const Shading shading(scene.context);
@@ -111,7 +116,7 @@ TEST(Shading, ScratchDoesNotRememberEarlierGrids) {
 }
 
 TEST(Shading, ThreadsShadeAlike) {
-    TestScene scene;
+    ShadingScene scene;
     scene.surface("plastic");
     scene.light("spotlight");
     scene.attributes->displacement_bound = 10;
@@ -136,7 +141,7 @@ class BatchOf : public ::testing::TestWithParam<const char*> {};
 
 /// Grids of all sizes, primitives and uniform values, in one call: each as if it were alone.
 TEST_P(BatchOf, GivesEachGridTheSameBits) {
-    TestScene scene;
+    ShadingScene scene;
     const ShaderFolder folder;
     folder.write("placed",
                  "surface placed(string space = \"object\"; float Kd = 1;) {"

@@ -6,8 +6,13 @@
 namespace trapeze {
 namespace {
 
+using testing::number;
+using testing::shader;
+using testing::ShaderFolder;
+using testing::ShadingScene;
+
 /// A scene whose surface is this source, named test.
-struct AovScene : TestScene {
+struct AovScene : ShadingScene {
     ShaderFolder folder;
 
     explicit AovScene(const std::string& source, std::vector<Parameter> parameters = {}) {

@@ -10,6 +10,7 @@
 
 namespace trapeze {
 
+/// Threads write to places of their own, by the vertex' number: the table is the same for any number of them.
 VertexTable::VertexTable(const PlacedSurface& surface) : key_count_(surface.key_count()) {
     // Vertices are evaluated in the order of faces, since surfaces keep the face evaluated last.
     std::vector<SurfacePoint> points(surface.surface().vertex_count());
@@ -36,6 +37,7 @@ VertexTable::VertexTable(const PlacedSurface& surface) : key_count_(surface.key_
     });
 }
 
+/// NaN fails every comparison, and so comes to the branch where it counts as infinite.
 float VertexTable::reach() const {
     float reach = 0;
     for (const V3f& p : positions_)
@@ -45,6 +47,7 @@ float VertexTable::reach() const {
     return reach;
 }
 
+/// The surface gives each point the same bits in any batch, so that runs may be cut wherever they end.
 void border_positions(const PlacedSurface& surface, const VertexTable& vertices,
                       std::span<const BorderPoint> points, EvaluationScratch& scratch, std::span<V3f> P) {
     const size_t keys = surface.key_count();
@@ -70,6 +73,8 @@ void border_positions(const PlacedSurface& surface, const VertexTable& vertices,
     }
 }
 
+/// Both ends snap to vertices of the interval, and the side takes all vertices between: a neighbour whose
+/// side ends at the same parameter snaps to the same one.
 BorderSide border_side(const Edges& edges, const SurfaceSide& side) {
     BorderSide border;
     border.edge = side.edge;

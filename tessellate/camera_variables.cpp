@@ -23,6 +23,8 @@ void for_each_triple(GridVariable& variable, int floats_per_element, F&& transfo
 
 }  // namespace
 
+/// The matrix is that of the first motion key: shading happens once a frame, as the shutter opens, and sees
+/// the variables of moving primitives as they are then.
 void to_camera_space(const M44f& camera_from_object, GridVariable& variable) {
     const M44f& m = camera_from_object;
     using Planes = std::vector<float>*;
@@ -56,6 +58,8 @@ void to_camera_space(const M44f& camera_from_object, GridVariable& variable) {
     }
 }
 
+/// A normal of no length, or none that a singular matrix leaves, would make shading black for no reason that
+/// the scene shows.
 void normals_to_camera_space(const M44f& camera_from_object, const Triples& fallback, Triples& normals) {
     const M44f m = normal_matrix(camera_from_object);
     for (size_t i = 0; i < normals.size(); ++i) {

@@ -11,7 +11,8 @@
 namespace trapeze {
 namespace {
 
-/// Makes one grid, step by step.
+/// Makes one grid, step by step. One object a grid, on the stack: the steps share the subpatch' sides and the
+/// lists of border points.
 class Dicer {
   public:
     Dicer(const DiceContext& context, const Subpatch& subpatch, ShadingGrid& grid,
@@ -297,6 +298,9 @@ void dice_subpatch(const DiceContext& context, const Subpatch& subpatch, Shading
     Dicer(context, subpatch, grid, scratch).run(wanted);
 }
 
+/// A grid of one micropolygon whose sides are as long as those of the subpatch's own, so that derivatives are
+/// the same as in the whole grid. It lies beyond the place, or before it where it would reach out of the
+/// subpatch.
 int dice_point(const DiceContext& context, const Subpatch& subpatch, const V2f& at, ShadingGrid& grid,
                DiceScratch::State& scratch) {
     Subpatch piece = subpatch;

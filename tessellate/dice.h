@@ -7,7 +7,8 @@
 
 namespace trapeze {
 
-/// What dicing a primitive reads: all of it outlives the call and is not changed.
+/// What dicing a primitive reads: all of it outlives the call and is not changed. `edges` are views of the
+/// primitive's own and of those that splitting has made.
 struct DiceContext {
     const PlacedSurface* surface = nullptr;
     Edges edges;
@@ -18,7 +19,7 @@ struct DiceContext {
 };
 
 /// A border vertex of the grid and the shared point that it takes. Several vertices may take one point, where
-/// the grid is finer than its edge.
+/// the grid is finer than its edge. Corners belong to two sides and are listed for both.
 struct BorderVertex {
     int vertex = 0;  ///< of the grid
     int point = 0;   ///< of the subpatch's border points

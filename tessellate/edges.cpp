@@ -98,6 +98,8 @@ class EdgeCutter {
 
 }  // namespace
 
+/// The edge's intervals stand one after another, in the order in which halving reaches them: that of the
+/// parameter.
 void EdgeTessellations::add(const PlacedSurface& surface, const EdgeLine& line, const LineMeasure& measure,
                             const EdgeRate& rate, EvaluationScratch& scratch) {
     const size_t first = intervals_.size();
@@ -110,12 +112,15 @@ void EdgeTessellations::add_whole(uint8_t segments) {
     intervals_.push_back({0, 0, segments});
 }
 
+/// Records name places in the list of intervals, and move on by what is there already.
 void EdgeTessellations::append(const EdgeTessellations& other) {
     const uint32_t offset = static_cast<uint32_t>(intervals_.size());
     intervals_.insert(intervals_.end(), other.intervals_.begin(), other.intervals_.end());
     for (Record r : other.records_) records_.push_back({r.first + offset, r.count});
 }
 
+/// Edges are numbered as they are met while surfaces are split in parallel; the order that is kept does not
+/// depend on that.
 void EdgeTessellations::renumber(std::span<const uint32_t> new_number) {
     std::vector<Record> old = std::move(records_);
     records_.assign(old.size(), {});
@@ -131,11 +136,14 @@ size_t EdgeTessellations::bytes() const {
     return records_.capacity() * sizeof(Record) + intervals_.capacity() * sizeof(EdgeInterval);
 }
 
+/// Below the surface's own count a number is one of its edges, from there on one that splitting has made.
 EdgeLine Edges::line(uint32_t edge) const {
     const size_t surface_edges = of_surface->size();
     return edge < surface_edges ? surface->edge(edge) : (*made_lines)[edge - surface_edges];
 }
 
+/// A binary search: intervals are sorted and cover all of the edge. The parameters are dyadic, so that
+/// comparisons with the ends are exact.
 const EdgeInterval* Edges::interval(uint32_t edge, float a, float b) const {
     const size_t surface_edges = of_surface->size();
     const std::span<const EdgeInterval> all =
@@ -148,6 +156,8 @@ const EdgeInterval* Edges::interval(uint32_t edge, float a, float b) const {
     return b <= holds_a.end() ? &holds_a : nullptr;
 }
 
+/// At the edge's own ends the point is another's to give: a vertex of the surface, or a point within another
+/// edge, followed until a vertex decides. Each edge on the way counts as a hop.
 BorderPoint Edges::vertex(const EdgeLine& l, const EdgeInterval& interval, int number) const {
     BorderPoint point;
     if (number == 0 && interval.begin == 0)
@@ -160,12 +170,15 @@ BorderPoint Edges::vertex(const EdgeLine& l, const EdgeInterval& interval, int n
     return point;
 }
 
+/// False for made edges, whose ends lie on sides.
 bool Edges::is_vertex(uint32_t edge, float parameter) const {
     if (edge >= of_surface->size() || (parameter != 0 && parameter != 1)) return false;
     const EdgeLine l = surface->edge(edge);
     return !(parameter == 0 ? l.start : l.finish).on_edge;
 }
 
+/// Where an edge ends within another, it takes that one's nearest vertex, and so may end a little beside
+/// where it was cut: `moved` tells the splitter to bound it there.
 BorderPoint Edges::end(const EdgeEnd& at) const {
     if (!at.on_edge) return {true, at.id, surface->vertex(at.id), 0, false};
     const EdgeInterval& holds = *interval(at.id, at.parameter, at.parameter);

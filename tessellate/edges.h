@@ -14,7 +14,8 @@
 namespace trapeze {
 
 /// A piece [begin, begin + 2^-depth] of an edge's parameter, cut into 1 to 16 equal segments. `begin` is a
-/// multiple of 2^-depth: exact in floats.
+/// multiple of 2^-depth: exact in floats. Depths are bounded by EdgeRate::max_depth, far below the 24 bits at
+/// which halving stops being exact.
 struct EdgeInterval {
     float begin = 0;
     uint8_t depth = 0;

@@ -46,6 +46,8 @@ void set_interior(const LatticeLines& lines, int face, const EdgeRate& rate, Fac
         set(lines.four[0], lines.four[1]);
 }
 
+/// Sides along v are looked at in eight pieces where four want it; those along u have four only, as the
+/// lattice has no more points there.
 FaceEstimate estimate_of(const LatticeLines& lines, int face, const EdgeRate& rate) {
     FaceEstimate estimate;
     estimate.sides[kBottom] = segments_of_side(lines.four[0][0], nullptr, face, rate);
@@ -58,6 +60,8 @@ FaceEstimate estimate_of(const LatticeLines& lines, int face, const EdgeRate& ra
 
 }  // namespace
 
+/// In blocks of as many faces as there are lanes; faces that are not wholly in view keep estimates of 0 and
+/// are looked at one by one later.
 std::vector<FaceEstimate> estimate_faces(const PlacedSurface& surface, const LineMeasure& measure,
                                          const EdgeRate& rate) {
     const int faces = surface.surface().face_count();
@@ -80,6 +84,7 @@ std::vector<FaceEstimate> estimate_faces(const PlacedSurface& surface, const Lin
     return estimates;
 }
 
+/// Exact comparisons: lines of whole faces run along their sides bit for bit or not at all.
 int side_along(const EdgeLine& line) {
     static constexpr float kEnds[4][4] = {{0, 0, 1, 0}, {1, 0, 1, 1}, {0, 1, 1, 1}, {0, 0, 0, 1}};
     for (int side = 0; side < 4; ++side)

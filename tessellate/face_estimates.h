@@ -10,7 +10,8 @@
 
 namespace trapeze {
 
-/// Segments that a face wants; 0 where that takes a closer look.
+/// Segments that a face wants; 0 where that takes a closer look. It spares most small faces, hairs above all,
+/// the walk through EdgeCutter and FaceSplitter.
 struct FaceEstimate {
     std::array<uint8_t, 4> sides{};  ///< of lines along its sides, by SideName
     uint8_t nu = 0, nv = 0;          ///< of its interior; both or none

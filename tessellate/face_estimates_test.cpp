@@ -18,6 +18,7 @@
 namespace trapeze {
 namespace {
 
+using testing::for_each_target;
 using testing::kBezier;
 using testing::kBSpline;
 using testing::TestScene;

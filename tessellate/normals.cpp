@@ -17,6 +17,8 @@ void nearby_derivatives(const PlacedSurface& surface, SurfacePoint at, Evaluatio
 
 }  // namespace
 
+/// The derivatives are replaced too where they had no normal, so that dPdu and dPdv of the grid agree with
+/// it.
 V3f normal_at(const PlacedSurface& surface, SurfacePoint at, EvaluationScratch& scratch, V3f* dPdu,
               V3f* dPdv) {
     const V3f normal = unit_normal(*dPdu, *dPdv);

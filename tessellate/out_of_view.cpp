@@ -27,6 +27,8 @@ Box3f bound_with_edges(const PlacedSurface& placed, int face, int key) {
 
 }  // namespace
 
+/// Each face is bounded at all keys together: it may pass through the picture between two that are both
+/// outside.
 bool is_out_of_view(const PlacedSurface& placed, const RasterBound& raster, float displacement_bound,
                     float farthest) {
     std::vector<Box3f> boxes(static_cast<size_t>(placed.key_count()));

@@ -17,6 +17,8 @@ int clamped_int(float value, int lo, int hi) {
 
 }  // namespace
 
+/// Displacement is in all directions, for shaders may move points any way; the rounding is relative to the
+/// largest coordinate.
 Box3f grown(const Box3f& box, float displacement_bound) {
     constexpr float kRounding = 4e-6f;
     float largest = 0;
@@ -25,6 +27,8 @@ Box3f grown(const Box3f& box, float displacement_bound) {
     return {box.min - grow, box.max + grow};
 }
 
+/// In front of the eye a perspective image of a box is bounded by those of its corners; the blur of the lens
+/// and of the keys between is added to that.
 RasterBound::Result RasterBound::of(std::span<const Box3f> boxes) const {
     if (everything_) return {picture_, true};
     Box3f all;
@@ -63,6 +67,8 @@ RasterBound::Result RasterBound::of(std::span<const Box3f> boxes) const {
     return result;
 }
 
+/// Holds for boxes before the eye: there the projection of a convex body is the hull of its corners'
+/// projections.
 RasterBound::Rect RasterBound::projected(const Box3f& box) const {
     Rect r{1e30f, 1e30f, -1e30f, -1e30f};
     for (int corner = 0; corner < 8; ++corner) {
@@ -75,6 +81,7 @@ RasterBound::Rect RasterBound::projected(const Box3f& box) const {
     return r;
 }
 
+/// Sees the two axes apart, which is not tight but needs no projection.
 bool RasterBound::missed_by_all_rays(const Box3f& box) const {
     return missed_along(0, box) || missed_along(1, box);
 }

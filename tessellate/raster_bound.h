@@ -32,7 +32,8 @@ class RasterBound {
     Result of(std::span<const Box3f> boxes) const;
 
   private:
-    /// Raster bounds before they are rounded to pixels.
+    /// Raster bounds before they are rounded to pixels. Floats may be infinite or NaN here; they are clamped
+    /// when pixels are made of them.
     struct Rect {
         float x0, y0, x1, y1;
     };

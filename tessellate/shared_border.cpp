@@ -109,6 +109,7 @@ class PieceMaker {
         for (int k = 0; k < 3; ++k) std::ranges::copy(grid.Ng.c[k], grid.N.c[k].begin());
     }
 
+    /// As the grid's own: the piece is shaded by the same shaders.
     void set_variables(ShadingGrid& grid) {
         const bool own_normals = surface_.surface().evaluate_variables(
             face_, scratch_.uv, scratch_.evaluation.of(surface_.surface()), grid);
@@ -125,6 +126,8 @@ class PieceMaker {
 
 }  // namespace
 
+/// Points that two sides list, corners above all, are one here: they are sorted by what makes them the same,
+/// and each border vertex finds its point by a search.
 void make_shared_border(const DiceContext& context, std::span<const BorderPoint> points,
                         std::span<const BorderVertex> border, ShadingGrid& grid,
                         DiceScratch::State& scratch) {

@@ -18,7 +18,8 @@ void snap_border_parameters(const Edges& edges, const Subpatch& subpatch,
                             std::span<const BorderVertex> border, bool corners, std::span<V2f> uv);
 
 /// Sets grid.border and grid.shared_vertices, for all of the grid's border vertices: a piece for each
-/// different point of `points`, sorted by face, evaluated at shutter open alone.
+/// different point of `points`, sorted by face, evaluated at shutter open alone. Only displaced surfaces pay
+/// for it: without displacement positions alone have to agree, and those do.
 void make_shared_border(const DiceContext& context, std::span<const BorderPoint> points,
                         std::span<const BorderVertex> border, ShadingGrid& grid, DiceScratch::State& scratch);
 

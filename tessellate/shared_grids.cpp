@@ -11,7 +11,8 @@
 namespace trapeze {
 namespace {
 
-/// Points of a face at a shape key, evaluated once; object space.
+/// Points of a face at a shape key, evaluated once; object space. Held by shared pointers, so that a thread
+/// may copy from them after the shelf's lock is gone.
 struct KnownPoints {
     int face, shape_key;
     std::vector<V2f> uv;
@@ -63,6 +64,8 @@ class SharedGrids final : public TopologySurface<SharedGrids> {
     V2f faces_per_unit(int face) const override { return surface_->faces_per_unit(face); }
     bool is_faceted() const override { return surface_->is_faceted(); }
 
+    /// Two threads may evaluate the same points at once and both put them away: that wastes memory and
+    /// changes nothing.
     void evaluate(int face, std::span<const V2f> uv, int shape_key, SurfaceScratch* scratch, std::span<V3f> P,
                   std::span<V3f> dPdu, std::span<V3f> dPdv) const override {
         const bool derivatives = !dPdu.empty();
@@ -129,6 +132,7 @@ std::unique_ptr<Surface> share_grids(std::shared_ptr<const Surface> surface, Sha
     return std::make_unique<SharedGrids>(std::move(surface), budget);
 }
 
+/// Other kinds evaluate a point for about what a look into the shelves costs.
 bool pays_to_share(const Topology& topology) {
     return std::holds_alternative<SubdivisionMesh>(topology) || std::holds_alternative<NuPatch>(topology);
 }

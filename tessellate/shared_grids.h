@@ -12,7 +12,8 @@
 namespace trapeze {
 
 /// The memory, in bytes, that several surfaces' shared grids may take together; when it is full, no more are
-/// kept, and nothing else changes.
+/// kept, and nothing else changes. It only ever shrinks: nothing is dropped to make room, for whatever fills
+/// it first is as likely to be wanted again.
 struct SharedGridBudget {
     std::atomic<size_t> bytes_left{0};
 };

@@ -16,6 +16,9 @@ bool is_point(const Edges& edges, const BorderSide& side) {
 
 }  // namespace
 
+/// Three passes: vertices move along their own sides to where their shared points lie; corners that share a
+/// point with other vertices pull these to them; and last, who lies within rounding of the shared point's own
+/// parameters takes their bits.
 void snap_border_parameters(const Edges& edges, const Subpatch& subpatch,
                             std::span<const BorderSide, 4> sides, std::span<const BorderPoint> points,
                             std::span<const BorderVertex> border, bool corners, std::span<V2f> uv) {

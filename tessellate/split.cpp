@@ -12,7 +12,8 @@ constexpr size_t kIntervalsLikeAPart = 8;
 /// enough.
 constexpr int kCoarse = kCoarseLatticePieces, kFine = 4;
 
-/// A rectangle on its way; depth_u and depth_v: how often it was halved along each.
+/// A rectangle on its way; depth_u and depth_v: how often it was halved along each. `sides` says where each
+/// of its sides lies on an edge: of the face, or one that was made by an earlier split.
 struct SplitNode {
     V2f lo{0, 0}, hi{1, 1};
     std::array<SurfaceSide, 4> sides;
@@ -20,6 +21,7 @@ struct SplitNode {
     bool inside = false;  ///< the picture holds it: no culling
 };
 
+/// One line of a lattice at all keys.
 using SplitLine = std::array<V3f, (kFine + 1) * LineMeasure::kMostKeys>;
 
 /// Positions of (pieces + 1)^2 points spread evenly over a rectangle, at one key or all, in camera space.
@@ -47,7 +49,9 @@ struct Want {
     bool less = false;  ///< perhaps, looked at more closely
 };
 
-/// Splits one face after another.
+/// Splits one face after another. It depends on nothing but the face and the context, so that faces may be
+/// split in any order and by any thread; made edges are numbered as they come, and renumbered when lists are
+/// joined.
 class FaceSplitter {
   public:
     FaceSplitter(const SplitContext& context, Splits& out)
@@ -307,6 +311,8 @@ size_t Splits::bytes() const {
            made_lines.capacity() * sizeof(EdgeLine) + made.bytes();
 }
 
+/// Takes the other's lists; numbers of its made edges, in their own ends and in sides of subpatches, move
+/// behind these.
 void Splits::append(Splits&& other, uint32_t surface_edges) {
     const uint32_t offset = static_cast<uint32_t>(made_lines.size());
     const auto moved = [&](uint32_t edge) { return edge < surface_edges ? edge : edge + offset; };
@@ -324,6 +330,8 @@ void Splits::append(Splits&& other, uint32_t surface_edges) {
     limited |= other.limited;
 }
 
+/// Faces are split independently of one another, so ranges of them can be given to threads; borders meet
+/// since both sides ask for the same edge.
 Splits split_faces(const SplitContext& context, int first_face, int end_face) {
     Splits splits;
     FaceSplitter splitter(context, splits);

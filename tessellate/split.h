@@ -14,7 +14,8 @@ namespace trapeze {
 inline constexpr int kCoarseLatticePieces = 2;
 
 /// A rectangle [lo, hi] of a face, to be diced as `shape`. `sides`: where each of its sides lies on its edge,
-/// within one interval of it.
+/// within one interval of it. It is kept for the whole frame and diced whenever a region needs it: what is
+/// not in here is a function of the surface.
 struct Subpatch {
     int face = 0;
     GridShape shape;

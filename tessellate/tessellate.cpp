@@ -38,7 +38,8 @@ constexpr float kFarthest = 1e11f;
 
 }  // namespace
 
-/// A primitive's part of a Tessellation.
+/// A primitive's part of a Tessellation. The surface may be shared with other primitives; all else is its
+/// own, since rates depend on where it is.
 struct TessellatedPrimitive {
     std::shared_ptr<const Surface> surface;
     std::unique_ptr<PlacedSurface> placed;
@@ -124,6 +125,7 @@ std::optional<Splits> split_all(const SplitContext& context, const RenderContext
     return splits;
 }
 
+/// Lists grow by doubling, and stay as they are for the frame.
 void shrink(Splits& splits) {
     splits.subpatches.shrink_to_fit();
     splits.made_lines.shrink_to_fit();
@@ -156,6 +158,7 @@ class SurfaceCache {
 
 }  // namespace
 
+/// Kept out of the header, so that those who use tessellations need not know of surfaces and metrics.
 struct Tessellation::Impl {
     explicit Impl(const Camera& camera) : metric(camera) {}
 
@@ -311,6 +314,8 @@ void tessellate_all(const RenderContext& context, const ScreenMetric& metric,
 
 }  // namespace
 
+/// What one tessellation leaves out its follower for rays leaves out as well: surfaces are taken over from
+/// those that have been placed.
 Tessellation::Tessellation(const RenderContext& context, const TessellationOptions& options)
     : impl_(std::make_unique<Impl>(context.camera)) {
     const Scene& scene = *context.scene;
@@ -367,6 +372,7 @@ uint64_t seed_of(uint32_t primitive, const Subpatch& piece) {
 
 Tessellation::~Tessellation() = default;
 
+/// Capacities, which is what has been taken; surfaces, which primitives may share, are not counted.
 size_t Tessellation::bytes() const {
     size_t total = infos_.capacity() * sizeof(SubpatchInfo) + sizeof(Impl) +
                    impl_->primitives.capacity() * sizeof(TessellatedPrimitive);
@@ -374,6 +380,7 @@ size_t Tessellation::bytes() const {
     return total;
 }
 
+/// The ordinal is the index among all subpatches, and orders grids of the frame whoever dices them.
 void Tessellation::dice(size_t subpatch, ShadingGrid& grid, DiceScratch& scratch, DiceFor wanted) const {
     const SubpatchInfo& info = infos_[subpatch];
     const TessellatedPrimitive& p = impl_->primitives[info.primitive];
@@ -385,6 +392,7 @@ void Tessellation::dice(size_t subpatch, ShadingGrid& grid, DiceScratch& scratch
     grid.seed = seed_of(info.primitive, piece);
 }
 
+/// For rays that ask at a point: a grid of one micropolygon is the least that derivatives can be taken of.
 int Tessellation::dice_point(const SubpatchPoint& point, ShadingGrid& grid, DiceScratch& scratch) const {
     const SubpatchInfo& info = infos_[point.subpatch];
     const TessellatedPrimitive& p = impl_->primitives[info.primitive];

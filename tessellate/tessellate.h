@@ -16,7 +16,8 @@
 
 namespace trapeze {
 
-/// What scheduling needs to know of a subpatch without dicing it.
+/// What scheduling needs to know of a subpatch without dicing it. One for every grid of the frame: kept
+/// small.
 struct SubpatchInfo {
     PixelRect
         bound;  ///< raster pixels that its samples may see, grown by motion, lens and displacement bound; not
@@ -26,7 +27,7 @@ struct SubpatchInfo {
     uint32_t primitive = 0;
 };
 
-/// A place of a subpatch, in its own unit square.
+/// A place of a subpatch, in its own unit square. Where a ray of a shader has hit, mostly.
 struct SubpatchPoint {
     size_t subpatch = 0;  ///< index in Tessellation::subpatches()
     V2f at{0, 0};

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/rays_harness.h"
+#include "tests/rays/rays_harness.h"
 
 namespace trapeze::testing {
 namespace {

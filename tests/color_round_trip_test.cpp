@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/command_line_harness.h"
+#include "tests/command_line/command_line_harness.h"
 
 namespace trapeze::testing {
 namespace {

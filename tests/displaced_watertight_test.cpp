@@ -11,6 +11,7 @@
 namespace trapeze {
 namespace {
 
+using testing::ShaderFolder;
 using testing::TestScene;
 
 /// A scene of one closed surface, and its displacement through the language.

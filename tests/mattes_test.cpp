@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "composite/filters/glow_filter.h"
+#include "composite/mattes/matte_layers.h"
 #include "composite/mattes/murmur_hash.h"
 #include "tests/program_harness.h"
 #include "tests/scene_harness.h"

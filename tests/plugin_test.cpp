@@ -8,7 +8,7 @@
 #include "core/grids_harness.h"
 #include "sample/frame_harness.h"
 #include "sample/load_plugin.h"
-#include "tests/command_line_harness.h"
+#include "tests/command_line/command_line_harness.h"
 
 namespace trapeze {
 namespace {

@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "pipeline/frame/make_context.h"
 #include "pipeline/frame/render_frame.h"
 #include "pipeline/rib/read_rib.h"
 #include "sample/visibility.h"

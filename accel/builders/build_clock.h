@@ -41,6 +41,7 @@ class WorkSum {
         std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
     };
 
+    /// Of spans that have ended; more than the time that has passed where several threads work at once.
     double seconds() const {
         return static_cast<double>(nanoseconds_.load(std::memory_order_relaxed)) * 1e-9;
     }

@@ -76,6 +76,7 @@ GridSummary summarise(const Grid& grid) {
     GridSummary summary = summarise_along_axes(grid);
     const bool boundable = std::isfinite(summary.absolute_max);
 
+    // Not grown for rounding: it decides where a grid goes in a topology, never what a ray may skip.
     for (int j = 0; j <= shape.nv; ++j)
         for (int i = 0; i <= shape.nu; ++i) summary.box.extendBy(grid.vertex(i, j, 0.5f));
 
@@ -92,6 +93,7 @@ GridSummary summarise(const Grid& grid) {
     summary.frame = boundable ? frame_of(along_u, along_v) : Frame{};
     const bool long_u = shape.nu >= shape.nv;
     summary.main_direction = summary.frame.axis[2];
+    // Of one direction alone the frame's first axis is that direction.
     if (is_curve(shape) && boundable)
         summary.main_direction = frame_of(long_u ? along_u : along_v, V3d(0)).axis[0];
     return summary;

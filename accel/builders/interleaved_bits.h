@@ -7,6 +7,8 @@ namespace trapeze {
 
 /// The lower 21 bits of a number, each three places from the next.
 constexpr uint64_t spread_by_three(uint64_t x) {
+    // Bits stay together in runs of 16, then of 8, 4, 2 and 1: each step moves the upper half of a run by
+    // twice that half's length.
     x &= 0x1fffff;
     x = (x | x << 32) & 0x001f00000000ffffu;
     x = (x | x << 16) & 0x001f0000ff0000ffu;

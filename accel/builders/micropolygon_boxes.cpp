@@ -9,7 +9,8 @@ namespace trapeze {
 
 namespace {
 
-/// Boxes at a time of what `place` makes of vertices.
+/// Boxes at a time of what `place` makes of vertices. Each vertex is moved and placed once, and not once for
+/// each of the up to four micropolygons around it.
 template <class Place>
 void boxes_of_placed(const Grid& grid, float time01, uint32_t first_id, SahItem* items, const Place& place) {
     V3f vertices[kMaxGridVertices];
@@ -43,6 +44,7 @@ void micropolygon_items(const Grids& grids, const std::vector<GridSummary>& summ
         first[g] = count;
         count += static_cast<uint32_t>(grids.grids[g].shape.micropolygon_count());
     }
+    // Every grid has its range of numbers from here on, and grids are filled in in parallel.
     ids.resize(count);
     items.resize(count);
     tbb::parallel_for(size_t{0}, first.size(), [&](size_t g) {

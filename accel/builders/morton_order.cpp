@@ -49,6 +49,7 @@ V2f square_from_direction(const V3f& unit) {
 uint64_t orientation_morton_code(const V3f& direction, const V3f& centroid, const Box3f& centroids) {
     const V2f orientation = square_from_direction(direction);
     uint32_t dimension[5] = {quantised(orientation.x), quantised(orientation.y)};
+    // Where all centroids share a coordinate this is 0 / 0, which quantised() takes to 0.
     for (int k = 0; k < 3; ++k)
         dimension[2 + k] =
             quantised((centroid[k] - centroids.min[k]) / (centroids.max[k] - centroids.min[k]));

@@ -5,6 +5,7 @@ namespace trapeze::sah {
 Split best_of_bins(const Bins& bins, const Extent& extent) {
     Split best;
     for (int axis = 0; axis < 3; ++axis) {
+        // Along an axis without extent all centroids are in one bin, and no plane divides them.
         if (!(bins.binning->scale[axis] > 0)) continue;
         const std::array<Bin, kBins>& bin = bins.of_axis[axis];
         std::array<double, kBins> cost_above{};  // of bins [b, kBins)

@@ -18,6 +18,7 @@ namespace trapeze::sah {
 inline constexpr int kBins = 32;
 inline constexpr size_t kParallelBinningFrom =
     1 << 16;  ///< items from which one node's bins are filled in parallel
+/// The cost where no split has been found.
 inline constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// Some items together: their box, the tests they stand for, their number.

@@ -45,6 +45,7 @@ class AxisOrder {
   private:
     static constexpr float kLeast = std::numeric_limits<float>::lowest();
     std::span<const SahItem> part_;
+    /// Compared by coordinate, then by item: hence the total order.
     struct Place {
         float at;
         uint32_t item;

@@ -80,6 +80,8 @@ class Builder {
         return options_.split_anyway ? best.cost < sah::kInfinite : best.cost < all.cost();
     }
 
+    /// Reads the items three times: for the box of their centroids, which bins divide, for the sums of bins,
+    /// and to part them.
     size_t split_by_bins(std::span<SahItem> part) const {
         const sah::Extent extent = sah::sum_of(part, sah::Extent{});
         const sah::Binning binning(extent.centroids);
@@ -92,6 +94,8 @@ class Builder {
         return static_cast<size_t>(middle - part.begin());
     }
 
+    /// Sorts along each axis in turn and keeps only the best place found; its order is made once more at the
+    /// end.
     size_t split_by_sweep(std::span<SahItem> part) const {
         sah::Extent extent;
         for (const SahItem& item : part) extent.add(item);
@@ -110,7 +114,8 @@ class Builder {
     }
 
     /// Gives the nodes below a link their final numbers, inner ones in preorder and leaves from left to
-    /// right; adds each leaf's first item to leaf_first.
+    /// right; adds each leaf's first item to leaf_first. The recursion is as deep as the tree:
+    /// kTopDepthLimit.
     TopLink number(TopLink built, SahTopology& result) const {
         if (built.is_leaf()) {
             result.leaf_first.push_back(built.index());

@@ -44,6 +44,9 @@ void sort_by_code(std::vector<CodedItem>& items, int bits) {
         const size_t last = std::min(items.size(), (chunk + 1) * kChunk);
         for (size_t i = chunk * kChunk; i < last; ++i) use(items[i]);
     };
+    // From the least significant digit up: each pass is stable, and so keeps what those before it have
+    // sorted. Each chunk has places of its own for every digit: tasks write without asking each other, and
+    // what comes out does not depend on which is first.
     for (int shift = 0; shift < bits; shift += kDigitBits) {
         tbb::parallel_for(size_t{0}, chunk_count, [&](size_t chunk) {
             chunks[chunk].fill(0);

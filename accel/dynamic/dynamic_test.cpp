@@ -10,6 +10,7 @@ namespace trapeze {
 namespace {
 
 using testing::GridMaker;
+using Reinsertion = InsertionOptions::Reinsertion;
 using testing::Noise;
 
 /// Small and large quads that drift, each on its way; every third one stands still. The same in every frame
@@ -66,7 +67,8 @@ TEST(InsertionTree, SeesEveryFrameAsItIs) {
     for (const int passes : {0, 2})
         for (const float thinning : {0.f, 1.1f, 2.f})
             for (const auto order : {InsertionOptions::Order::Shuffled, InsertionOptions::Order::Given})
-                expect_every_frame_right(InsertionTree({passes, thinning, order}));
+                for (const auto reinsertion : {Reinsertion::Ancestor, Reinsertion::Root})
+                    expect_every_frame_right(InsertionTree({passes, thinning, order, reinsertion}));
 }
 
 TEST(LooseTree, SeesEveryFrameAsItIs) {
@@ -78,7 +80,9 @@ TEST(LooseTree, SeesEveryFrameAsItIs) {
 
 TEST(InsertionTree, StaysATreeWhateverMoves) {
     for (const float thinning : {0.f, 1.1f, 1.5f}) {
-        InsertionTree tree({1, thinning});
+        InsertionTree tree({.passes = 1,
+                            .thinning = thinning,
+                            .reinsertion = thinning == 1.1f ? Reinsertion::Root : Reinsertion::Ancestor});
         uint64_t dissolved = 0;
         for (int frame = 0; frame < 20; ++frame) {
             const GridMaker maker = drifting_frame(frame);

@@ -66,6 +66,8 @@ void FrameBoxes::read(const Grids& frame) {
             ids[first[g] + static_cast<uint32_t>(i)] = micropolygon_of_grid(g, grid.shape, i);
         extents[g] = boxes_of_shutter(grid, boxes.data() + first[g]);
     });
+    // Grids that cannot be bounded are taken out, and what comes after them moves up: objects count without
+    // gaps.
     unbounded.clear();
     absolute_max = quad_extent = 0;
     size_t kept = 0;
@@ -102,6 +104,7 @@ bool FrameBoxes::reread(const Grids& frame, std::span<const uint32_t> changed) {
         if (!std::isfinite(extent.absolute_max)) return false;
         extents.push_back(extent);
     }
+    // All boxes of the changed grids are made by now: only from here on is anything overwritten.
     grids = &frame;
     const KeyBox* from = fresh.data();
     for (const uint32_t g : changed)

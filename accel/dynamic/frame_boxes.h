@@ -31,15 +31,18 @@ struct FrameBoxes {
     /// The objects of a grid, from the first on; where nothing is unbounded.
     uint32_t first_of(uint32_t grid) const { return first_[grid]; }
 
+    /// Memory held; the grids' own is not counted.
     size_t bytes() const {
         return (ids.capacity() + unbounded.capacity()) * sizeof(MicropolygonId) +
                boxes.capacity() * sizeof(KeyBox) + first_.capacity() * sizeof(uint32_t);
     }
 
+    /// Puts an object to the predicate, at the time of the ray; its box is not asked.
     template <class Policy>
     void test_object(uint32_t object, TraceRay& ray, Policy& policy, SampleStats& stats) const {
         test_micropolygon(grids->grids[ids[object].grid], ids[object], ray, policy, stats);
     }
+    /// What every ray has to be tested against once, before a tree is walked through.
     template <class Policy>
     void test_unbounded(TraceRay& ray, Policy& policy, SampleStats& stats) const {
         for (const MicropolygonId& id : unbounded)
@@ -52,9 +55,13 @@ struct FrameBoxes {
 
 /// Empty: it holds nothing, and joined with another it is that.
 KeyBox empty_box();
+/// Looks at the first axis alone: boxes here are empty along all axes or none.
 bool is_empty(const KeyBox& box);
+/// The smallest box about both; an empty one adds nothing.
 KeyBox joined(const KeyBox& a, const KeyBox& b);
+/// Whether all of `inner` is in `outer`, sides included. Any box holds an empty one.
 bool holds(const KeyBox& outer, const KeyBox& inner);
+/// Exact, so that objects that have not moved are recognised. Lane 3 is not looked at.
 bool same_box(const KeyBox& a, const KeyBox& b);
 /// Half of its surface; 0 of an empty one.
 float half_area_of(const KeyBox& box);

@@ -14,6 +14,7 @@ void InsertionTree::build(const Grids& grids) {
 
 void InsertionTree::insert_all() {
     reset();
+    inserting_all_ = true;
     const size_t count = objects_.boxes.size();
     const std::vector<uint32_t> order = insertion_order();
     for (const uint32_t object : order)
@@ -26,8 +27,9 @@ void InsertionTree::insert_all() {
             climb(detach(object), empty_box(), 1);  // to the root, for nothing but the empty box fits in all
             insert(object, root_);
         }
-    touched_.clear();
+    inserting_all_ = false;
     moved_ = dissolved_ = 0;
+    // Nodes were made when little was below them: thinning is measured from the complete tree.
     for (size_t node = count; node < nodes_.size(); ++node)
         nodes_[node].first_quality = quality(nodes_[node]);
 }
@@ -42,6 +44,8 @@ std::vector<uint32_t> InsertionTree::insertion_order() const {
     return order;
 }
 
+/// A binary tree over n leaves has n - 1 inner nodes: as many are free to begin with, and no insertion runs
+/// out of them.
 void InsertionTree::reset() {
     const size_t count = objects_.boxes.size();
     nodes_.assign(count < 2 ? count : 2 * count - 1, {});
@@ -51,6 +55,7 @@ void InsertionTree::reset() {
     root_ = kNone;
 }
 
+/// A frame of as many objects is taken to have the same ones in the same order.
 void InsertionTree::update(const Grids& grids) {
     const size_t count = objects_.boxes.size();
     objects_.read(grids);
@@ -76,6 +81,7 @@ void InsertionTree::move_if_changed(uint32_t object) {
     if (!same_box(nodes_[object].box, objects_.boxes[object])) move(object, objects_.boxes[object]);
 }
 
+/// Takes an object out of the tree, climbs to where its new box fits, and inserts it from there on.
 void InsertionTree::move(uint32_t object, const KeyBox& box) {
     ++moved_;
     if (object == root_) {
@@ -88,7 +94,11 @@ void InsertionTree::move(uint32_t object, const KeyBox& box) {
         insert(object, root_);
         return;
     }
-    const uint32_t from = climb(above, box, 1);
+    // Nothing but the empty box fits in all, so that it climbs to the root.
+    const bool to_root = options_.reinsertion == InsertionOptions::Reinsertion::Root;
+    const uint32_t from = climb(above, to_root ? empty_box() : box, 1);
+    // Above `from` the object has been counted all along; only boxes may be too large there. Read before the
+    // insertion, which may put a new node above `from`.
     const uint32_t above_that = nodes_[from].parent;
     insert(object, from);
     tighten_above(above_that);
@@ -108,6 +118,7 @@ uint32_t InsertionTree::detach(uint32_t node) {
     return above;
 }
 
+/// A parent of kNone is the place above the root.
 void InsertionTree::replace_child(uint32_t parent, uint32_t old_child, uint32_t new_child) {
     if (parent == kNone)
         root_ = new_child;
@@ -130,7 +141,8 @@ uint32_t InsertionTree::climb(uint32_t from, const KeyBox& box, uint32_t objects
 }
 
 /// The node to pair an inserted box with: on the way down from `from`, always to the child that grows least,
-/// the one where the tree's surface grows least [Goldsmith87].
+/// the one where the tree's surface grows least [Goldsmith87]. Greedy: one path is looked at, so that it
+/// takes as many steps as the tree has levels below `from`.
 uint32_t InsertionTree::best_sibling(const KeyBox& box, uint32_t from) const {
     const auto with = [&](uint32_t node) { return half_area_of(joined(nodes_[node].box, box)); };
     uint32_t best = from;
@@ -148,7 +160,9 @@ uint32_t InsertionTree::best_sibling(const KeyBox& box, uint32_t from) const {
     return best;
 }
 
-/// Inserts a node, and what is below it, at or below `from`.
+/// Inserts a node, and what is below it, at or below `from`. A free node becomes the parent of it and of its
+/// sibling, in the sibling's place. Nodes from `from` down grow to hold it; those above are the caller's to
+/// bring up to date.
 void InsertionTree::insert(uint32_t inserted, uint32_t from) {
     const KeyBox box = nodes_[inserted].box;
     const uint32_t objects = nodes_[inserted].objects;
@@ -173,7 +187,8 @@ void InsertionTree::insert(uint32_t inserted, uint32_t from) {
     nodes_[at].parent = nodes_[inserted].parent = pair;
 }
 
-/// Makes the boxes of ancestors smaller, as far as anything changes.
+/// Makes the boxes of ancestors smaller, as far as anything changes. A box that stays as it is ends the
+/// climb, since boxes above depend on nothing else.
 void InsertionTree::tighten_above(uint32_t node) {
     for (; node != kNone; node = nodes_[node].parent) {
         const KeyBox box = box_of_children(nodes_[node]);
@@ -183,6 +198,7 @@ void InsertionTree::tighten_above(uint32_t node) {
     }
 }
 
+/// Looks at nodes that the update has touched, and at no others: what it costs goes by what has moved.
 void InsertionTree::dissolve_thinned() {
     if (!(options_.thinning > 0)) return;
     // What dissolving one changes is looked at in the next update.

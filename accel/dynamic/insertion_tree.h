@@ -29,8 +29,15 @@ struct InsertionOptions {
     /// beside each other, and the tree becomes a list where each makes what is there grow by little: long
     /// walls of a building, of which a million take hours.
     enum class Order { Shuffled, Given } order = Order::Shuffled;
+    /// Where an object that has moved is inserted again.
+    enum class Reinsertion {
+        Ancestor,  ///< below the nearest ancestor that holds its new box [DynBvh06 algorithm 1]
+        Root       ///< from the root, as any other [Goldsmith87]
+    } reinsertion = Reinsertion::Ancestor;
 };
 
+/// Objects are those of FrameBoxes: leaf i is object i, so that one that moves is found without a search.
+/// Frames are read by many threads, the tree is changed by one; rays may be traced from many while it stays.
 class InsertionTree {
   public:
     explicit InsertionTree(const InsertionOptions& options = {}) : options_(options) {}
@@ -95,8 +102,10 @@ class InsertionTree {
     KeyBox box_of_children(const Node& node) const {
         return joined(nodes_[node.child[0]].box, nodes_[node.child[1]].box);
     }
+    /// Remembers a node whose quality has changed for dissolve_thinned(). Not while all objects are inserted:
+    /// qualities are taken anew after that.
     void touch(uint32_t node) {
-        if (options_.thinning > 0) touched_.push_back(node);
+        if (options_.thinning > 0 && !inserting_all_) touched_.push_back(node);
     }
 
     InsertionOptions options_;
@@ -105,6 +114,7 @@ class InsertionTree {
     std::vector<uint32_t> free_;     ///< inner nodes that are in no tree
     std::vector<uint32_t> touched_;  ///< inner nodes whose quality has changed, some of them several times
     uint32_t root_ = kNone;
+    bool inserting_all_ = false;
     uint64_t moved_ = 0, dissolved_ = 0;
 };
 

@@ -50,6 +50,8 @@ void LooseTree::build(const Grids& grids) {
 }
 
 void LooseTree::place_objects() {
+    // Level 3 n of the tree is a grid of 2^n voxels a side, in the order of their Morton codes; 2^(3 n) - 1
+    // nodes come before it.
     const int most = options_.levels / 3;
     node_of_.resize(objects_.boxes.size());
     tbb::parallel_for(size_t{0}, node_of_.size(), [&](size_t i) {
@@ -80,6 +82,7 @@ void LooseTree::bound_nodes() {
         if (!is_lowest(node)) {
             const KeyBox &low = boxes_[2 * node + 1], &high = boxes_[2 * node + 2];
             const bool has_objects = first_in_node_[node] < first_in_node_[node + 1];
+            // The child's own skip is known by now: chains of such nodes are passed in one step.
             if (options_.skip && !has_objects && is_empty(low) != is_empty(high))
                 skip_to_[node] = skip_to_[2 * node + (is_empty(low) ? 2 : 1)];
             box = joined(box, joined(low, high));

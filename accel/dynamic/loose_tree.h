@@ -12,6 +12,7 @@
 
 namespace trapeze {
 
+/// How fine a LooseTree is, and which of its nodes rays pass over.
 struct LooseOptions {
     /// A multiple of three, at most 24: the lowest level is a grid of 2^(levels / 3) voxels a side.
     int levels = 18;
@@ -21,12 +22,15 @@ struct LooseOptions {
     bool skip = true;
 };
 
+/// Nodes are a complete binary tree in an array, level by level: a node's number tells its children and its
+/// voxels, and no links are kept. Its 2^(levels + 1) - 1 nodes take memory however few objects there are.
 class LooseTree {
   public:
     explicit LooseTree(const LooseOptions& options = {}) : options_(options) {}
 
     /// Keeps a reference to the grids. Algorithm 2; objects are read and placed in parallel.
     void build(const Grids& grids);
+    /// Nothing of the frame before is of use: what moves costs no more than what stands still.
     void update(const Grids& grids) { build(grids); }
 
     /// Shows the policy the hits of a ray, near ones first as far as boxes tell.

@@ -2,6 +2,7 @@
 /// far as boxes tell.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -54,6 +55,7 @@ class PendingVisits {
     }
 
   private:
+    /// A node whose box the ray meets; nothing in it is hit before `depth`.
     struct Visit {
         float depth;
         uint32_t node;
@@ -65,7 +67,14 @@ class PendingVisits {
         return !is_empty(box) && meets(box, visit.depth);
     }
     bool meets(const KeyBox& box, float& depth) const {
-        return clip(along_axes_, box, box, 0, rounding_).meets(ray_, slack_, depth);
+        return clip(along_axes_, box, box, 0, rounding_).meets(ray_, slack_within(box), depth);
+    }
+    /// A bound of the longest side of any object in a box, which decision 0004 asks for: no object is longer
+    /// than its box, nor than the longest of the scene. So what is long does not slow rays far from it.
+    float slack_within(const KeyBox& box) const {
+        const float x = box.high[0] - box.low[0], y = box.high[1] - box.low[1], z = box.high[2] - box.low[2];
+        const float longest = std::max(std::max(x, y), z);
+        return longest < slack_ ? longest : slack_;
     }
     void push(const Visit& visit) {
         if (size_ < kShallow)
@@ -81,6 +90,7 @@ class PendingVisits {
         return visit;
     }
 
+    /// Visits that need no allocation: 768 bytes of them in the object itself.
     static constexpr size_t kShallow = 96;
 
     const TraceRay& ray_;

@@ -12,7 +12,9 @@
 namespace trapeze {
 namespace {
 
-/// The axes that may separate a quad from a box, but for those of space, which boxes have looked at.
+/// The axes that may separate a quad from a box, but for those of space, which boxes have looked at. The
+/// normal of the plane comes first, then the products of two sides with each axis of space. What is no
+/// parallelogram has two further sides: leaving them out makes spans longer, never wrong.
 std::array<V3f, 7> separating_axes(const QuadPose& pose) {
     const V3f along_u = pose[1] - pose[0], along_v = pose[2] - pose[0];
     return {along_u.cross(along_v),        V3f(0, along_u.z, -along_u.y), V3f(-along_u.z, 0, along_u.x),

@@ -16,6 +16,9 @@ namespace {
 /// Planes are tried at the ends of so many slabs along an axis; of small nodes of fewer.
 constexpr size_t kMostKdSlabs = 32, kLeastKdSlabs = 8;
 
+/// How far beyond all boxes the first and the last plane are, by the largest coordinate: more than rounds.
+constexpr float kBesideBoxes = 0x1p-20f;
+
 /// References from which one node's sums are made in parallel, in parts that do not depend on threads.
 constexpr size_t kParallelSumsFrom = 1 << 15;
 
@@ -34,6 +37,7 @@ struct AxisPlanes {
     AxisPlanes() = default;
     AxisPlanes(float from, float to, size_t slabs)
         : first(from), step((to - from) / static_cast<float>(slabs)) {
+        // No planes where slabs are so thin that floats hardly tell their ends apart.
         if (step > 0 && at(1) > from && at(slabs - 1) < at(slabs)) count = slabs + 1;
         steps_per_unit = 1 / step;
     }
@@ -116,6 +120,8 @@ struct PlaneSums {
         for (int k = 0; k < 3; ++k) {
             AxisPlanes& planes = axis[static_cast<size_t>(k)];
             if (planes.count == 0) continue;
+            // Planes that a side moves across are looked at one by one. At those beyond it counts as a whole:
+            // one entry, which consider_planes_of() carries on to the planes that follow.
             const auto low = box.range(&Box3f::min, k, reference.box.min[k]);
             const size_t whole_from = planes.first_above(low.most);
             for (size_t p = planes.first_above(low.least); p < whole_from; ++p)
@@ -152,20 +158,31 @@ Sum sum_in_parts(std::span<const KdReference> references, const Sum& zero, const
         });
 }
 
-/// What of references takes part in the choice.
+/// Those who may take part in the choice.
 struct Voters {
-    size_t residents = 0, guests = 0;
-    Box3f of_residents, of_guests;  ///< poses, within the cell
+    struct Group {
+        size_t count = 0;
+        double cost = 0;  ///< of testing them in a leaf
+        Box3f box;        ///< poses, within the cell
 
-    void add(const Voters& o) {
-        residents += o.residents, guests += o.guests;
-        of_residents.extendBy(o.of_residents), of_guests.extendBy(o.of_guests);
-    }
+        void add(const KdReference& reference, double weight) {
+            ++count, cost += weight;
+            box.extendBy(reference.box);
+        }
+        void add(const Group& o) {
+            count += o.count, cost += o.cost;
+            box.extendBy(o.box);
+        }
+    };
+    Group residents, guests;
+
+    void add(const Voters& o) { residents.add(o.residents), guests.add(o.guests); }
 };
 
 /// The cheapest plane of an axis, if it is cheaper than `best`.
 void consider_planes_of(const AxisPlanes& planes, int axis, const Box3f& cell, KdPlane& best) {
     if (planes.count == 0) return;
+    // Sums from above of what lies at or above a plane; those from below are made on the way.
     std::array<double, kMostKdSlabs + 2> high_to_or_above{};
     for (size_t p = planes.count + 1; p-- > 0;)
         high_to_or_above[p] =
@@ -188,39 +205,35 @@ void consider_planes_of(const AxisPlanes& planes, int axis, const Box3f& cell, K
 
 }  // namespace
 
-double KdPlanes::leaf_cost(std::span<const KdReference> references) const {
-    double cost = 0;
-    for (const KdReference& reference : references)
-        if (!reference.guest)
-            cost += options_.weight == KdTreeOptions::Weight::Time
-                        ? static_cast<double>(reference.when.length())
-                        : 1;
-    return cost;
-}
-
 float KdPlanes::pose_time(const ShutterSpan& when) const {
     return std::clamp(options_.plane_time, when.from, when.to);
 }
 
-KdPlane KdPlanes::best(std::span<const KdReference> references, const Box3f& cell) const {
+KdVote KdPlanes::vote(std::span<const KdReference> references, const Box3f& cell) const {
+    const bool by_time = options_.weight == KdTreeOptions::Weight::Time;
     const Voters voters = sum_in_parts(references, Voters{}, [&](const KdReference& r, Voters& sum) {
-        ++(r.guest ? sum.guests : sum.residents);
-        (r.guest ? sum.of_guests : sum.of_residents).extendBy(r.box);
+        (r.guest ? sum.guests : sum.residents).add(r, by_time ? static_cast<double>(r.when.length()) : 1);
     });
-    const bool guests_too = voters.guests > voters.residents;
-    Box3f extent = voters.of_residents;
-    if (guests_too) extent.extendBy(voters.of_guests);
+    const bool guests_too = voters.guests.count > voters.residents.count;
+    Box3f extent = voters.residents.box;
+    if (guests_too) extent.extendBy(voters.guests.box);
 
+    // Planes lie in the box of those who vote, hence a second pass over the references.
     PlaneSums zero;
     const size_t slabs = std::clamp(references.size(), kLeastKdSlabs, kMostKdSlabs);
-    for (int k = 0; k < 3; ++k)
-        zero.axis[static_cast<size_t>(k)] = AxisPlanes(extent.min[k], extent.max[k], slabs);
+    for (int k = 0; k < 3; ++k) {
+        // A plane at a side of a box leaves its owner on both sides: the first and last are a little beyond,
+        // and cut off what is empty.
+        const float beside = kBesideBoxes * std::max(std::abs(extent.min[k]), std::abs(extent.max[k]));
+        zero.axis[static_cast<size_t>(k)] = AxisPlanes(extent.min[k] - beside, extent.max[k] + beside, slabs);
+    }
     const PlaneSums sums = sum_in_parts(references, zero, [&](const KdReference& r, PlaneSums& sum) {
         if (!r.guest || guests_too) sum.add(r, boxes_.keys(r.item), pose_time(r.when), options_.weight);
     });
-    KdPlane best;
-    for (int k = 0; k < 3; ++k) consider_planes_of(sums.axis[static_cast<size_t>(k)], k, cell, best);
-    return best;
+    KdVote vote;
+    vote.leaf_cost = voters.residents.cost + (guests_too ? voters.guests.cost : 0);
+    for (int k = 0; k < 3; ++k) consider_planes_of(sums.axis[static_cast<size_t>(k)], k, cell, vote.best);
+    return vote;
 }
 
 }  // namespace trapeze

@@ -29,17 +29,20 @@ struct KdPlane {
     float at = 0;
 };
 
+/// What those who vote say of a node: its best plane, and what it costs as a leaf.
+struct KdVote {
+    KdPlane best;
+    double leaf_cost = 0;
+};
+
 /// Chooses planes for nodes. Costs are tests of a micropolygon.
 class KdPlanes {
   public:
     KdPlanes(const SweptBoxes& boxes, const KdTreeOptions& options) : boxes_(boxes), options_(options) {}
 
-    /// What a node costs as a leaf: the references that a ray at any time tests. Guests do not count.
-    double leaf_cost(std::span<const KdReference> references) const;
-
     /// The best of some planes along each axis, all strictly within the cell. The same whatever the number of
-    /// threads. Guests are not looked at, but where they are more than the others.
-    KdPlane best(std::span<const KdReference> references, const Box3f& cell) const;
+    /// threads. Guests do not vote, but where they are more than the others.
+    KdVote vote(std::span<const KdReference> references, const Box3f& cell) const;
 
     /// When in its span a micropolygon's pose decides where it belongs: the plane time, or what is nearest.
     float pose_time(const ShutterSpan& when) const;

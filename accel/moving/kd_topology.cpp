@@ -16,7 +16,8 @@
 namespace trapeze {
 namespace {
 
-/// Divisions in a row that may cost more than they gain, in the hope of better ones below them.
+/// Divisions on the way to a leaf that may cost more than they gain, in the hope of better ones below them,
+/// as in [Pharr10 sec. 4.4.1].
 constexpr int kBadDivisions = 2;
 
 constexpr size_t kKdNodeIsTaskFrom = 1024;  ///< references below which a subtree is one task
@@ -26,6 +27,8 @@ constexpr float kLeastSide = 1e-5f;
 
 using References = std::vector<KdReference>;
 
+/// A node while the tree is built: subtrees are made in parallel, and get their places in one array at the
+/// end.
 struct BuiltNode {
     std::unique_ptr<BuiltNode> low, high;  ///< none of a leaf
     int axis = 0;
@@ -52,10 +55,12 @@ Box3f common(const Box3f& a, const Box3f& b) {
     return both;
 }
 
+/// Builds from the root down. Every node has its references to itself, so that both sides can be built at
+/// once; they are freed as soon as the sides have theirs.
 class KdBuilder {
   public:
     KdBuilder(const Grids& grids, const SweptBoxes& boxes, const KdTreeOptions& options)
-        : grids_(grids), boxes_(boxes), options_(options), planes_(boxes, options) {}
+        : grids_(grids), boxes_(boxes), options_(options), planes_(boxes, options), crosses_(boxes.size()) {}
 
     KdTopology build() {
         KdTopology result;
@@ -78,11 +83,14 @@ class KdBuilder {
         }
         result.leaf_first.push_back(static_cast<uint32_t>(result.references.size()));
         result.guests = guests_, result.lacked_budget = lacked_budget_;
+        for (const std::atomic<bool>& crosses : crosses_) result.incoherent += crosses;
         result.work = work_.seconds(), result.part_work = part_work_.seconds();
         return result;
     }
 
   private:
+    /// Gives a box that is flat along an axis some extent there: planes have to be strictly within their
+    /// cell.
     static Box3f with_sides(Box3f box) {
         const V3f size = box.max - box.min;
         const float least = kLeastSide * std::max({size.x, size.y, size.z});
@@ -127,11 +135,11 @@ class KdBuilder {
     bool divide(const NodeTask& task, BuiltNode& node, NodeTask& low, NodeTask& high) {
         const size_t count = task.references.size();
         if (count < 2 || task.depth >= depth_limit_) return false;
-        const double leaf_cost = planes_.leaf_cost(task.references);
-        const KdPlane plane = planes_.best(task.references, task.cell);
+        const KdVote vote = planes_.vote(task.references, task.cell);
+        const KdPlane& plane = vote.best;
         if (!std::isfinite(plane.cost)) return false;
         low.bad_divisions = task.bad_divisions;
-        if (!(plane.cost < leaf_cost)) {
+        if (!(plane.cost < vote.leaf_cost)) {
             if (count < static_cast<size_t>(options_.leaf) || task.bad_divisions >= kBadDivisions)
                 return false;
             ++low.bad_divisions;
@@ -165,7 +173,8 @@ class KdBuilder {
         for (const KdReference& reference : task.references) {
             const std::span<const Box3f> keys = boxes_.keys(reference.item);
             KdReference in_low = reference, in_high = reference;
-            in_low.guest = in_high.guest = false;
+            const bool stays_guest = reference.guest && options_.guests == KdTreeOptions::Guests::Silent;
+            bool new_in_low = false, new_in_high = false;
             in_low.when = when_at_or_below(keys, plane.axis, plane.at, reference.when);
             in_high.when = when_at_or_above(keys, plane.axis, plane.at, reference.when);
             if (!in_low.when.is_empty() && !in_high.when.is_empty()) {
@@ -173,22 +182,25 @@ class KdBuilder {
                 const SeparatingAxes axes(grids_.grids[id.grid], id, planes_.pose_time(reference.when));
                 look_closer(reference, plane, axes, low.cell, in_low);
                 look_closer(reference, plane, axes, high.cell, in_high);
+                // What is on one side alone at the pose time has come to the other across the plane, as a
+                // guest.
                 if (!(in_low.when == in_high.when)) {
                     const float pose = planes_.pose_time(reference.when);
-                    in_low.guest = !in_low.when.holds(pose) && in_high.when.holds(pose);
-                    in_high.guest = !in_high.when.holds(pose) && in_low.when.holds(pose);
+                    new_in_low = !in_low.when.holds(pose) && in_high.when.holds(pose);
+                    new_in_high = !in_high.when.holds(pose) && in_low.when.holds(pose);
                 }
             }
-            for (const auto& [in, side] : {std::pair(&in_low, &low), std::pair(&in_high, &high)}) {
-                if (in->when.is_empty()) continue;
-                side->references.push_back(*in);
-                guests += in->guest;
-            }
+            if (new_in_low || new_in_high) crosses_[reference.item].store(true, std::memory_order_relaxed);
+            in_low.guest = stays_guest || new_in_low, in_high.guest = stays_guest || new_in_high;
+            if (!in_low.when.is_empty()) low.references.push_back(in_low), guests += new_in_low;
+            if (!in_high.when.is_empty()) high.references.push_back(in_high), guests += new_in_high;
         }
         return guests;
     }
 
-    /// Looks at the polygon where a plane cuts its box.
+    /// Looks at the polygon where a plane cuts its box. Its time on that side is cut to when axes find it in
+    /// the cell. Its box is that of the polygon's part if the pose that decides is still the same one; of
+    /// another pose it is the whole micropolygon's box, cut by the cell.
     void look_closer(const KdReference& whole, const KdPlane& plane, const SeparatingAxes& axes,
                      const Box3f& cell, KdReference& part) const {
         const MicropolygonId& id = boxes_.id(part.item);
@@ -228,6 +240,7 @@ class KdBuilder {
     const KdPlanes planes_;
     int depth_limit_ = 0;
     std::atomic<uint64_t> guests_{0};
+    std::vector<std::atomic<bool>> crosses_;  ///< of items: whether some plane made a guest of it
     std::atomic<bool> lacked_budget_{false};
     WorkSum work_, part_work_;
 };

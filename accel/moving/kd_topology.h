@@ -3,9 +3,9 @@
 ///
 /// A micropolygon that crosses a plane while it moves is duplicated: it is a resident of the side on which it
 /// is at the plane time, and a guest of the other (the paper's Normal_node and BP_node, figure 3). Guests do
-/// not vote for planes. One level further down they are residents again, but where the next plane makes them
-/// guests (the six cases of the propagation): so a guest is not a list of its own but a mark, which leaves do
-/// not keep.
+/// not vote for planes. Further down the same cases decide on which sides they are (the six cases of the
+/// propagation), and whether they vote there is an option: so a guest is not a list of its own but a mark,
+/// which leaves do not keep.
 #pragma once
 
 #include <cstdint>
@@ -37,12 +37,15 @@ struct KdNode {
     uint32_t index() const { return bits >> 2; }
 };
 
+/// What build_kd_topology() makes: the two children of a node stand side by side, and a leaf is a range of
+/// `references`.
 struct KdTopology {
     Box3f box;                         ///< of all micropolygons at all times
     std::vector<KdNode> nodes;         ///< the root first; none without micropolygons
     std::vector<uint32_t> leaf_first;  ///< leaf -> its first reference; one more than leaves
     std::vector<KdReference> references;
-    uint64_t guests = 0;         ///< duplicates that planes made because something moves across them
+    /// Duplicates that planes made because something moves across them, and how many micropolygons do.
+    uint64_t guests = 0, incoherent = 0;
     bool lacked_budget = false;  ///< some node would have been divided, had there been more
     double work = 0;             ///< seconds of all threads, in all
     double part_work = 0;        ///< of these, on putting references on sides, where they are duplicated

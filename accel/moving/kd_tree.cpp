@@ -11,6 +11,20 @@
 
 namespace trapeze {
 
+std::vector<float> KdTree::extents_below(const std::vector<GridSummary>& summaries) const {
+    std::vector<float> extents(nodes_.size());
+    for (size_t node = nodes_.size(); node-- > 0;) {
+        const uint32_t at = nodes_[node].index();
+        if (!nodes_[node].is_leaf()) {
+            extents[node] = std::max(extents[at], extents[at + 1]);
+            continue;
+        }
+        for (uint32_t i = leaf_first_[at]; i < leaf_first_[at + 1]; ++i)
+            extents[node] = std::max(extents[node], summaries[references_[i].id.grid].quad_extent);
+    }
+    return extents;
+}
+
 KdTree::KdTree(const Grids& grids, const KdTreeOptions& options) : grids_(grids), mailbox_(options.mailbox) {
     PhaseClock clock;
     const std::vector<GridSummary> summaries = summaries_along_axes(grids);
@@ -18,7 +32,6 @@ KdTree::KdTree(const Grids& grids, const KdTreeOptions& options) : grids_(grids)
         const GridSummary& summary = summaries[g];
         if (std::isfinite(summary.absolute_max)) {
             absolute_max_ = std::max(absolute_max_, summary.absolute_max);
-            quad_extent_ = std::max(quad_extent_, summary.quad_extent);
             continue;
         }
         const GridShape& shape = grids.grids[g].shape;
@@ -36,19 +49,24 @@ KdTree::KdTree(const Grids& grids, const KdTreeOptions& options) : grids_(grids)
     references_.resize(topology.references.size());
     tbb::parallel_for(size_t{0}, references_.size(), [&](size_t i) {
         const KdReference& from = topology.references[i];
+        // Rounded outwards: `from` by the conversion, which cuts off, and `to` by std::ceil().
         // The same product as of a ray's time, so that both round alike.
         references_[i] = {boxes.id(from.item), static_cast<uint16_t>(from.when.from * kTimeSteps),
                           static_cast<uint16_t>(std::min(std::ceil(from.when.to * kTimeSteps), kTimeSteps))};
     });
 
-    stats_.tree_bytes =
-        sizeof(*this) + nodes_.capacity() * sizeof(KdNode) + leaf_first_.capacity() * sizeof(uint32_t) +
-        references_.capacity() * sizeof(Reference) + unbounded_.capacity() * sizeof(MicropolygonId);
+    extents_ = extents_below(summaries);
+
+    stats_.tree_bytes = sizeof(*this) + nodes_.capacity() * (sizeof(KdNode) + sizeof(float)) +
+                        leaf_first_.capacity() * sizeof(uint32_t) +
+                        references_.capacity() * sizeof(Reference) +
+                        unbounded_.capacity() * sizeof(MicropolygonId);
     stats_.tree_nodes = nodes_.size();
     stats_.tree_leaves = leaf_first_.size() - 1;
     stats_.tree_references = references_.size() + unbounded_.size();
     stats_.tree_duplicates = references_.size() - std::min(references_.size(), boxes.size());
     stats_.tree_splits = (nodes_.size() - stats_.tree_leaves);
+    stats_.tree_guests = topology.guests, stats_.tree_incoherent = topology.incoherent;
     stats_.lacked_budget = topology.lacked_budget;
     stats_.phases.bound = clock.end_phase();
 }

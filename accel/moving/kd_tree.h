@@ -3,16 +3,17 @@
 ///
 /// Departs from the paper: micropolygons instead of triangles; the one predicate, which also decides in which
 /// order hits are; planes are passed with what rays and boxes round, and ends of rays are taken by the size
-/// of the largest micropolygon too far [decision 0004]. So the tree finds what testing everything finds, bit
-/// for bit. Planes are tried between slabs, not at all sides of boxes. Guests that outnumber residents vote
-/// for planes: a cell that is empty at the plane time, and through which everything flies at another, would
-/// be one leaf.
+/// of the largest micropolygon below too far [decision 0004]. So the tree finds what testing everything
+/// finds, bit for bit. Planes are tried between slabs, not at all sides of boxes. Guests that outnumber
+/// residents vote for planes: a cell that is empty at the plane time, and through which everything flies at
+/// another, would be one leaf.
 #pragma once
 
 #include <array>
 #include <span>
 #include <vector>
 
+#include "accel/builders/grid_summary.h"
 #include "accel/grid_block.h"
 #include "accel/moving/kd_topology.h"
 #include "accel/slabs.h"
@@ -21,6 +22,7 @@
 
 namespace trapeze {
 
+/// What rays change on the way is theirs (stack and mailbox), so that threads may trace at once.
 class KdTree {
   public:
     /// Builds in parallel. Keeps a reference to the grids.
@@ -40,7 +42,8 @@ class KdTree {
         uint16_t from, to;
     };
 
-    /// The last micropolygons that a ray tested: what a leaf has in common with those before it.
+    /// The last micropolygons that a ray tested: what a leaf has in common with those before it. Each has one
+    /// place, by bits of its id, where the next one to come takes over: forgetting costs a test, never a hit.
     class Mailbox {
       public:
         explicit Mailbox(bool is_used) : mask_(is_used ? kPlaces - 1 : 0), is_used_(is_used) {
@@ -63,6 +66,7 @@ class KdTree {
         bool is_used_;
     };
 
+    /// A subtree that the ray has still to look into, and its way through the cell.
     struct Cell {
         uint32_t node;
         float near, far;  ///< depths between which the ray is in it
@@ -70,6 +74,10 @@ class KdTree {
 
     static constexpr float kTimeSteps = 65535;
 
+    /// Of each node: children come after their parents.
+    std::vector<float> extents_below(const std::vector<GridSummary>& summaries) const;
+
+    /// `time`: the ray's, in steps of kTimeSteps as references have it.
     template <class Policy>
     void test_leaf(uint32_t number, float time, Mailbox& mailbox, TraceRay& ray, Policy& policy,
                    SampleStats& stats) const {
@@ -85,8 +93,8 @@ class KdTree {
     bool mailbox_;
     KeyBox box_;              ///< of everything that can be bounded, at all times
     float absolute_max_ = 0;  ///< its largest coordinate
-    float quad_extent_ = 0;   ///< the longest side of any micropolygon's box at any key
     std::vector<KdNode> nodes_;
+    std::vector<float> extents_;  ///< a node: the longest side of any micropolygon's box below it, at any key
     std::vector<uint32_t> leaf_first_;
     std::vector<Reference> references_;
     std::vector<MicropolygonId> unbounded_;  ///< what any ray may meet
@@ -103,30 +111,32 @@ void KdTree::trace(TraceRay& ray, Policy& policy, SampleStats& stats) const {
     const float rounding = ray.rounding(absolute_max_);
     const DepthInterval whole = clip(along_axes, box_, box_, 0, rounding);
     float depth;
-    if (!whole.meets(ray, quad_extent_, depth)) return;
+    if (!whole.meets(ray, extents_[0], depth)) return;
     std::array<float, 3> pad;
     for (size_t k = 0; k < 3; ++k) pad[k] = rounding * std::abs(along_axes.inverse_direction[k]);
     const float time = ray.axis.time * kTimeSteps;
     Mailbox mailbox(mailbox_);
+    // A step down leaves at most one cell waiting: their number is bounded by the depth.
     std::array<Cell, kKdDepthLimit + 1> todo;
     size_t waiting = 0;
     todo[waiting++] = {0, whole.near, whole.far};
     while (waiting > 0) {
         Cell cell = todo[--waiting];
         // Negated, so that a NaN, which is no bound, goes on.
-        if (cell.near - quad_extent_ > ray.t_max) continue;
+        if (cell.near - extents_[cell.node] > ray.t_max) continue;
         const KdNode* node = &nodes_[cell.node];
         while (!node->is_leaf()) {
             ++stats.nodes_visited;
             const auto axis = static_cast<size_t>(node->axis());
             const float inverse = along_axes.inverse_direction[axis];
             const float crossing = (node->plane - along_axes.origin[axis]) * inverse;
+            // Rounding may move the crossing anywhere between these: a side is left out where both say so.
             const float before = crossing - pad[axis], after = crossing + pad[axis];
             const uint32_t near_child = node->index() + (inverse < 0),
                            far_child = node->index() + !(inverse < 0);
-            if (after < cell.near || after + quad_extent_ < ray.t_min) {
+            if (after < cell.near || after + extents_[near_child] < ray.t_min) {
                 cell.node = far_child;
-            } else if (before > cell.far || before - quad_extent_ > ray.t_max) {
+            } else if (before > cell.far || before - extents_[far_child] > ray.t_max) {
                 cell.node = near_child;
             } else {
                 todo[waiting++] = {far_child, before > cell.near ? before : cell.near, cell.far};

@@ -31,6 +31,7 @@ void fewer_keys(std::span<const Box3f> from, std::span<Box3f> to) {
                 above[end][k] = std::max(above[end][k], from[i].max[k] - line.max[k]);
             }
     }
+    // The line between two ends moves out by at least the smaller of what they move by.
     for (size_t key = 0; key < to.size(); ++key) to[key].min -= below[key], to[key].max += above[key];
 }
 
@@ -45,6 +46,8 @@ void keyed_boxes(std::span<const Box3f> from, std::span<Box3f> to) {
     } else if (to.size() < from.size()) {
         fewer_keys(from, to);
     } else {
+        // Each key of `from` is one of `to`, as both are 2^m + 1: boxes linear between more keys are no
+        // larger.
         for (size_t key = 0; key < to.size(); ++key) {
             const MotionSegment s = segment_at(static_cast<float>(key) / static_cast<float>(to.size() - 1),
                                                static_cast<int>(from.size()));

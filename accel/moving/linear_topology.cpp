@@ -1,13 +1,14 @@
 #include "accel/moving/linear_topology.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 
 #include "accel/builders/interleaved_bits.h"
-#include "accel/builders/sah_bins.h"
 #include "accel/builders/sort_by_code.h"
 
 namespace trapeze {
@@ -39,13 +40,15 @@ struct Subtree {
     TopLink root{};
 };
 
+/// Divides sorted codes from the root down. A node is a range of them, and what its codes have in common
+/// above their highest differing bit is its cell of space [Lauterbach09].
 class LinearBuilder {
   public:
-    LinearBuilder(std::span<const CodedItem> order, size_t leaf_below)
-        : order_(order), leaf_below_(leaf_below) {}
+    LinearBuilder(std::span<const CodedItem> order, size_t leaf_below, std::span<uint32_t> items)
+        : order_(order), leaf_below_(leaf_below), items_(items) {}
 
     /// The nodes above subtrees, which are divided in parallel; then all in one, from left to right.
-    void build(SpatialTopology& result) {
+    void build(LinearTopology& result) {
         Subtree top{0, order_.size(), {}, {}};
         top.root = divide_into_subtrees(top, 0, order_.size());
         tbb::parallel_for(size_t{0}, subtrees_.size(), [&](size_t i) {
@@ -73,6 +76,9 @@ class LinearBuilder {
     TopLink build(Subtree& tree, size_t first, size_t last) const {
         if (last - first < leaf_below_) {
             tree.leaf_first.push_back(static_cast<uint32_t>(first));
+            for (size_t i = first; i < last; ++i) items_[i] = order_[i].item;
+            std::sort(items_.begin() + static_cast<std::ptrdiff_t>(first),
+                      items_.begin() + static_cast<std::ptrdiff_t>(last));
             return TopLink::leaf(static_cast<uint32_t>(tree.leaf_first.size() - 1));
         }
         const size_t index = tree.inner.size(), middle = divide(first, last);
@@ -94,8 +100,9 @@ class LinearBuilder {
         return static_cast<size_t>(middle - order_.begin());
     }
 
-    /// Inner nodes of the top come first, then those of the subtrees in turn.
-    void join(const Subtree& top, SpatialTopology& result) const {
+    /// Inner nodes of the top come first, then those of the subtrees in turn. Links within a subtree count
+    /// from 0: they move on by what comes before it.
+    void join(const Subtree& top, LinearTopology& result) const {
         std::vector<size_t> first_inner{top.inner.size()}, first_leaf{0};
         for (const Subtree& tree : subtrees_) {
             first_inner.push_back(first_inner.back() + tree.inner.size());
@@ -125,26 +132,39 @@ class LinearBuilder {
 
     std::span<const CodedItem> order_;
     size_t leaf_below_;
+    std::span<uint32_t> items_;
     std::vector<Subtree> subtrees_;
 };
 
+Box3f box_of(std::span<const V3f> points) {
+    return tbb::parallel_reduce(
+        tbb::blocked_range<size_t>(0, points.size()), Box3f(),
+        [&](const auto& range, Box3f box) {
+            for (size_t i = range.begin(); i < range.end(); ++i) box.extendBy(points[i]);
+            return box;
+        },
+        [](Box3f a, const Box3f& b) {
+            a.extendBy(b);
+            return a;
+        });
+}
+
 }  // namespace
 
-SpatialTopology build_linear_topology(std::span<const SahItem> items, size_t leaf_below) {
-    SpatialTopology result;
-    if (!items.empty()) {
-        const Box3f centroids = sah::sum_of(items, sah::Extent{}).centroids;
-        std::vector<CodedItem> order(items.size());
-        tbb::parallel_for(size_t{0}, items.size(), [&](size_t i) {
-            order[i] = {morton_code(items[i].centroid(), centroids), static_cast<uint32_t>(i)};
+LinearTopology build_linear_topology(std::span<const V3f> centroids, size_t leaf_below) {
+    LinearTopology result;
+    if (!centroids.empty()) {
+        const Box3f box = box_of(centroids);
+        std::vector<CodedItem> order(centroids.size());
+        tbb::parallel_for(tbb::blocked_range<size_t>(0, centroids.size()), [&](const auto& range) {
+            for (size_t i = range.begin(); i < range.end(); ++i)
+                order[i] = {morton_code(centroids[i], box), static_cast<uint32_t>(i)};
         });
         sort_by_code(order, 3 * kMortonBits);
-        LinearBuilder(order, leaf_below).build(result);
-        result.references.resize(items.size());
-        tbb::parallel_for(size_t{0}, items.size(),
-                          [&](size_t i) { result.references[i] = items[order[i].item]; });
+        result.items.resize(centroids.size());
+        LinearBuilder(order, leaf_below, result.items).build(result);
     }
-    result.leaf_first.push_back(static_cast<uint32_t>(items.size()));
+    result.leaf_first.push_back(static_cast<uint32_t>(centroids.size()));
     return result;
 }
 

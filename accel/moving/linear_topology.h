@@ -2,15 +2,24 @@
 /// highest differing bit changes [Lauterbach09]: built in the time of a sort, whatever it costs rays.
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
-#include "accel/moving/spatial_topology.h"
+#include "accel/builders/sah_topology.h"
 
 namespace trapeze {
 
-/// `items`: a micropolygon each. Codes have 18 bits an axis of the centroids' box at mid-shutter; what has
-/// one code is halved in the order of ids. Leaves have fewer references than `leaf_below`, at least 2.
+/// A topology over numbers of items: the items themselves stay where they are.
+struct LinearTopology {
+    TopTopology tree;                  ///< its leaves are numbered from left to right
+    std::vector<uint32_t> leaf_first;  ///< leaf -> its first item; one more than leaves
+    std::vector<uint32_t> items;       ///< in the order of leaves; of one leaf in their own
+};
+
+/// `centroids`: of items at mid-shutter, all finite. Codes have 18 bits an axis of their box; what has one
+/// code is halved in the order of items. Leaves have fewer items than `leaf_below`, at least 2.
 /// Deterministic, whatever the number of threads.
-SpatialTopology build_linear_topology(std::span<const SahItem> items, size_t leaf_below);
+LinearTopology build_linear_topology(std::span<const V3f> centroids, size_t leaf_below);
 
 }  // namespace trapeze

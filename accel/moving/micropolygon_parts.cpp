@@ -8,6 +8,8 @@
 namespace trapeze {
 namespace {
 
+/// A point of a micropolygon as a sum of its corners, whose weights sum to 1. In doubles: what clipping
+/// rounds is then nothing beside part_slack().
 using CornerWeights = std::array<double, 4>;
 
 /// A convex polygon while it is clipped: a triangle, and a vertex more for each of six planes.
@@ -79,6 +81,7 @@ Chopped chop(const QuadPose& pose, const Box3f& box, int axis, float at) {
         crossing[axis] = at;
         extend(parts.low, crossing), extend(parts.high, crossing);
     }
+    // `box` may hold less than the polygon: earlier planes have cut it.
     for (Box3f* part : {&parts.low, &parts.high})
         for (int k = 0; k < 3; ++k)
             part->min[k] = std::max(part->min[k], box.min[k]),

@@ -16,6 +16,7 @@ namespace trapeze {
 /// The corners 00, 10, 01, 11 of a micropolygon at some time, in camera space.
 using QuadPose = std::array<V3f, 4>;
 
+/// By Grid::vertex(): the corners as the predicate has them, bit for bit.
 QuadPose pose_of(const Grid& grid, const MicropolygonId& id, float time01);
 Box3f box_of(const QuadPose& pose);
 

@@ -1,5 +1,6 @@
 #include "accel/moving/moving_tree.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
@@ -13,12 +14,14 @@
 #include "accel/builders/sah_topology.h"
 #include "accel/moving/key_boxes.h"
 #include "accel/moving/linear_topology.h"
+#include "accel/moving/swept_boxes.h"
 
 namespace trapeze {
 namespace {
 
 constexpr int kParallelLevels = 7;  ///< levels whose subtrees are bounded in parallel
 
+/// Room for boxes at all keys of any grid or tree; the first ones are used.
 using KeyBoxes = std::array<Box3f, kMaxKeyCount>;
 
 /// A box that lies in `whole` of mid-shutter, where the same place of `then` is [Gruenschloss11 eq. 1]: along
@@ -34,66 +37,65 @@ Box3f moved_with(const Box3f& box, const Box3f& whole, const Box3f& then) {
     return moved;
 }
 
-/// Boxes of a whole micropolygon, or of its part in a box at mid-shutter, at all keys of its grid, of which
-/// it returns the number.
-size_t boxes_at_keys(const Grid& grid, const MicropolygonId& id, const SahItem& reference,
-                     MovingTreeOptions::Clipping clipping, KeyBoxes& boxes) {
+/// Boxes at all keys of its grid of the part of a micropolygon that is in `part` at mid-shutter; `whole`:
+/// those of all of it.
+void boxes_of_part(const Grid& grid, const MicropolygonId& id, const Box3f& part,
+                   MovingTreeOptions::Clipping clipping, std::span<const Box3f> whole, KeyBoxes& boxes) {
     using Clipping = MovingTreeOptions::Clipping;
-    const auto keys = static_cast<size_t>(grid.key_count);
+    std::ranges::copy(whole, boxes.begin());
+    const QuadPose middle = pose_of(grid, id, 0.5f);
+    if (clipping != Clipping::Polygon) {
+        for (size_t key = 0; key < whole.size(); ++key)
+            boxes[key] = moved_with(part, box_of(middle), whole[key]);
+        return;
+    }
+    const MicropolygonPart polygon(middle, part);
+    // The whole boxes, which hold any part, stay.
+    if (polygon.is_empty()) return;
     std::array<int, 4> at{};
     for (int c = 0; c < 4; ++c)
         at[static_cast<size_t>(c)] = grid.shape.tiled_index(id.u + (c & 1), id.v + (c >> 1));
-    const auto pose_at = [&](size_t key) {
+    for (size_t key = 0; key < whole.size(); ++key) {
         const KeyVertices vertices(grid, static_cast<int>(key));
-        return QuadPose{vertices[at[0]], vertices[at[1]], vertices[at[2]], vertices[at[3]]};
-    };
-    for (size_t key = 0; key < keys; ++key) boxes[key] = box_of(pose_at(key));
-    if (!PartId::is_part(reference.id)) return keys;
-    const QuadPose middle = pose_of(grid, id, 0.5f);
-    if (clipping == Clipping::Polygon) {
-        const MicropolygonPart part(middle, reference.box);
-        if (part.is_empty()) return keys;
-        for (size_t key = 0; key < keys; ++key) boxes[key] = part.box_when(pose_at(key));
-    } else {
-        const Box3f whole = box_of(middle);
-        for (size_t key = 0; key < keys; ++key) boxes[key] = moved_with(reference.box, whole, boxes[key]);
+        boxes[key] = polygon.box_when({vertices[at[0]], vertices[at[1]], vertices[at[2]], vertices[at[3]]});
     }
-    return keys;
+}
+
+/// The middles of boxes at mid-shutter; of what cannot be bounded the origin.
+UnsetArray<V3f> centroids_of(const SweptBoxes& boxes) {
+    UnsetArray<V3f> centroids(boxes.size());
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, boxes.size()), [&](const auto& range) {
+        for (size_t i = range.begin(); i < range.end(); ++i) {
+            const Box3f box = boxes.at(i, 0.5f);
+            const V3f middle = box.min * 0.5f + box.max * 0.5f;
+            const bool finite = std::isfinite(middle.x) && std::isfinite(middle.y) && std::isfinite(middle.z);
+            centroids.set(i, finite ? middle : V3f(0));
+        }
+    });
+    return centroids;
+}
+
+/// Takes a micropolygon's largest coordinate and longest side into a node's.
+void take_extremes(std::span<const Box3f> keys, TopLevel::Node& node) {
+    for (const Box3f& box : keys)
+        for (int k = 0; k < 3; ++k) {
+            node.absolute_max = std::max({node.absolute_max, -box.min[k], box.max[k]});
+            node.quad_extent = std::max(node.quad_extent, box.max[k] - box.min[k]);
+        }
 }
 
 }  // namespace
 
-/// What leaves are made of: lists of references, each an index of an id.
+/// What leaves are made of: a list of references, each to a micropolygon or to a part of one.
 struct MovingTree::Sources {
-    std::span<const GridSummary> summaries;
-    std::span<const MicropolygonId> ids;
-    std::span<const SahItem> references;
-
-    /// Asks memory for what references further on need, in steps of which each needs the one before. Leaves
-    /// are bounded from left to right, and their grids are anywhere: waiting for them took four fifths of the
-    /// time. Inlined, since GCC drops calls of what only reads and asks.
-    [[gnu::always_inline]] void look_ahead(const Grids& grids, size_t reference) const {
-        constexpr size_t kIds = 32, kGrids = 20, kVertices = 10;
-        const auto id_of = [&](size_t r) -> const MicropolygonId& {
-            return ids[PartId::index(references[r].id)];
-        };
-        if (reference + kIds >= references.size()) return;
-        __builtin_prefetch(&id_of(reference + kIds));
-        const uint32_t grid = id_of(reference + kGrids).grid;
-        __builtin_prefetch(&summaries[grid]);
-        __builtin_prefetch(&grids.grids[grid]);
-        const MicropolygonId& next = id_of(reference + kVertices);
-        const Grid& of_next = grids.grids[next.grid];
-        const int at = of_next.shape.tiled_index(next.u, next.v);
-        for (int segment = 0; segment < segment_count(of_next.key_count); ++segment)
-            for (int k = 0; k < (of_next.moves() ? 6 : 3); ++k)
-                __builtin_prefetch(of_next.plane(segment, k) + at);
-    }
+    const SweptBoxes& boxes;
+    std::span<const uint32_t> references;  ///< PartIds of places in `boxes`, list after list
+    std::span<const SahItem> parts;        ///< as the references, where some are to parts
 };
 
 /// What bounding a leaf works on; it is large, and made once for many leaves.
 struct MovingTree::LeafBoxes {
-    KeyBoxes of_leaf, at_keys, of_grid;
+    KeyBoxes of_leaf, at_keys, of_part;
 };
 
 MovingTree::MovingTree(const Grids& grids, const MovingTreeOptions& options)
@@ -104,47 +106,58 @@ MovingTree::MovingTree(const Grids& grids, const MovingTreeOptions& options)
 void MovingTree::build() {
     PhaseClock clock;
     BuildPhases phases;
-    const std::vector<GridSummary> summaries = summaries_along_axes(*grids_);
+    const SweptBoxes boxes(*grids_);
+    top_.oriented = false;
+    if (options_.topology == MovingTreeOptions::Topology::Morton) {
+        const UnsetArray<V3f> centroids = centroids_of(boxes);
+        phases.prepare = clock.end_phase();
+        LinearTopology topology =
+            build_linear_topology({centroids.data(), centroids.size()}, static_cast<size_t>(options_.leaf));
+        phases.divide = clock.end_phase();
+        leaf_first_ = std::move(topology.leaf_first);
+        link_nodes(topology.tree);
+        bound({boxes, topology.items, {}});
+    } else {
+        build_spatial(boxes, clock, phases);
+    }
+    count_built(sizeof(*this));
+    stats_.tree_references = micropolygons_.size();
+    stats_.tree_duplicates = micropolygons_.size() - boxes.size();
+    phases.bound = clock.end_phase();
+    stats_.phases = phases;
+}
+
+void MovingTree::build_spatial(const SweptBoxes& boxes, PhaseClock& clock, BuildPhases& phases) {
     std::vector<MicropolygonId> ids;
     std::vector<SahItem> items;
-    micropolygon_items(*grids_, summaries, ids, items);
+    micropolygon_items(*grids_, summaries_along_axes(*grids_), ids, items);
     SpatialOptions spatial;
     spatial.leaf_below = static_cast<size_t>(options_.leaf);
     spatial.budget = static_cast<size_t>(options_.budget * static_cast<double>(items.size()));
     // The boxes of the second form have to hold all of the whole box together.
     spatial.tight = options_.clipping != MovingTreeOptions::Clipping::Box;
     phases.prepare = clock.end_phase();
-    SpatialTopology topology = options_.topology == MovingTreeOptions::Topology::Morton
-                                   ? build_linear_topology(items, spatial.leaf_below)
-                                   : build_spatial_topology(items, *grids_, ids, spatial);
-    phases.divide = clock.end_phase(), phases.divide_work = topology.work,
+    SpatialTopology topology = build_spatial_topology(items, *grids_, ids, spatial);
+    phases.divide = clock.end_phase(), phases.divide_work = topology.work;
     phases.cut_work = topology.cut_work;
+    stats_.tree_splits = topology.splits, stats_.lacked_budget = topology.lacked_budget;
 
     items = {};
     leaf_first_ = std::move(topology.leaf_first);
-    top_.oriented = false;
     const auto by_id = [](const SahItem& a, const SahItem& b) {
         return PartId::index(a.id) < PartId::index(b.id);
     };
+    std::vector<uint32_t> references(topology.references.size());
     tbb::parallel_for(size_t{0}, leaf_count(), [&](size_t i) {
-        std::sort(topology.references.begin() + leaf_first_[i],
-                  topology.references.begin() + leaf_first_[i + 1], by_id);
+        const uint32_t first = leaf_first_[i], last = leaf_first_[i + 1];
+        std::sort(topology.references.begin() + first, topology.references.begin() + last, by_id);
+        for (uint32_t r = first; r < last; ++r) references[r] = topology.references[r].id;
     });
     link_nodes(topology.tree);
-    bound({summaries, ids, topology.references});
-
-    micropolygons_.resize(topology.references.size());
-    tbb::parallel_for(size_t{0}, micropolygons_.size(),
-                      [&](size_t i) { micropolygons_[i] = ids[PartId::index(topology.references[i].id)]; });
-    count_built(sizeof(*this));
-    stats_.tree_references = micropolygons_.size();
-    stats_.tree_duplicates = micropolygons_.size() - ids.size();
-    stats_.tree_splits = topology.splits;
-    stats_.lacked_budget = topology.lacked_budget;
-    phases.bound = clock.end_phase();
-    stats_.phases = phases;
+    bound({boxes, references, topology.references});
 }
 
+/// In TopLevel's order: the sides of inner node i are nodes 2 i and 2 i + 1, and the root is the last.
 void MovingTree::link_nodes(const TopTopology& topology) {
     top_.nodes.clear();
     if (leaf_count() == 0) return;
@@ -168,15 +181,21 @@ void MovingTree::refit(const Grids& grids) {
         build();
         return;
     }
-    const std::vector<GridSummary> summaries = summaries_along_axes(grids);
-    std::vector<SahItem> whole(micropolygons_.size());
-    for (size_t i = 0; i < whole.size(); ++i) whole[i].id = static_cast<uint32_t>(i);
-    bound({summaries, micropolygons_, whole});
+    // References become such to whole micropolygons: where a plane cut them in another frame says nothing
+    // here.
+    const SweptBoxes boxes(grids);
+    std::vector<uint32_t> references(micropolygons_.size());
+    for (size_t i = 0; i < references.size(); ++i) {
+        const MicropolygonId& id = micropolygons_[i];
+        references[i] = static_cast<uint32_t>(boxes.index_of(id, grids.grids[id.grid].shape));
+    }
+    bound({boxes, references, {}});
 }
 
 void MovingTree::bound(const Sources& sources) {
     top_.key_count = options_.keys > 0 ? options_.keys : grids_->max_key_count();
     top_.boxes.resize(top_.nodes.size() * static_cast<size_t>(top_.key_count));
+    micropolygons_.resize(sources.references.size());
     stats_.tree_sah_cost = 0;
     if (top_.nodes.empty()) return;
     const size_t root = top_.nodes.size() - 1;
@@ -198,27 +217,33 @@ double MovingTree::mean_area(size_t node) const {
     return sum;
 }
 
+/// The boxes of all references, each brought from the keys of its grid to those of the tree.
 void MovingTree::bound_leaf(const Sources& sources, size_t at, LeafBoxes& boxes) {
+    // Micropolygons next to each other in a tree are anywhere in memory: those further on are asked for.
+    constexpr size_t kAhead = 24;
     const auto keys = static_cast<size_t>(top_.key_count);
-    auto& [of_leaf, at_keys, of_grid] = boxes;
+    auto& [of_leaf, at_keys, of_part] = boxes;
     std::fill_n(of_leaf.begin(), keys, Box3f());
     TopLevel::Node& node = top_.nodes[at];
     node.absolute_max = node.quad_extent = 0;
     const uint32_t list = node.link.index();
     for (size_t r = leaf_first_[list]; r < leaf_first_[list + 1]; ++r) {
-        sources.look_ahead(*grids_, r);
-        const SahItem& reference = sources.references[r];
-        const MicropolygonId& id = sources.ids[PartId::index(reference.id)];
-        const GridSummary& summary = sources.summaries[id.grid];
-        node.absolute_max = std::max(node.absolute_max, summary.absolute_max);
-        node.quad_extent = std::max(node.quad_extent, summary.quad_extent);
-        size_t grid_keys = 1;
-        if (std::isfinite(summary.absolute_max)) {
-            grid_keys = boxes_at_keys(grids_->grids[id.grid], id, reference, options_.clipping, of_grid);
-        } else {  // its rounding makes any box infinite
-            of_grid[0] = Box3f(V3f(0), V3f(0));
+        if (r + kAhead < sources.references.size())
+            sources.boxes.fetch(PartId::index(sources.references[r + kAhead]));
+        const uint32_t reference = sources.references[r];
+        const std::span<const Box3f> whole = sources.boxes.keys(PartId::index(reference));
+        const MicropolygonId& id = micropolygons_[r] = sources.boxes.id(PartId::index(reference));
+        take_extremes(whole, node);
+        std::span<const Box3f> there = whole;
+        if (!std::isfinite(node.absolute_max)) {  // its rounding makes any box infinite
+            of_part[0] = Box3f(V3f(0), V3f(0));
+            there = std::span(of_part).first(1);
+        } else if (PartId::is_part(reference)) {
+            boxes_of_part(grids_->grids[id.grid], id, sources.parts[r].box, options_.clipping, whole,
+                          of_part);
+            there = std::span(of_part).first(whole.size());
         }
-        keyed_boxes(std::span(of_grid).first(grid_keys), std::span(at_keys).first(keys));
+        keyed_boxes(there, std::span(at_keys).first(keys));
         for (size_t key = 0; key < keys; ++key) of_leaf[key].extendBy(at_keys[key]);
     }
     KeyBox* const to = top_.boxes.data() + at * keys;
@@ -238,6 +263,7 @@ double MovingTree::bound_below(const Sources& sources, size_t at, int depth, Lea
     const size_t low = 2 * size_t{node.link.index()}, high = low + 1;
     double cost_low = 0, cost_high = 0;
     const auto bound_low = [&](LeafBoxes& to) { cost_low = bound_below(sources, low, depth + 1, to); };
+    // The scratch serves one side at a time: where both may be bounded at once, the low side gets its own.
     if (depth < kParallelLevels) {
         tbb::parallel_invoke(
             [&] {

@@ -12,12 +12,15 @@
 /// keys other than linear, are not there: grids have neither.
 #pragma once
 
+#include "accel/builders/build_clock.h"
 #include "accel/moving/moving_options.h"
 #include "accel/moving/spatial_topology.h"
+#include "accel/moving/swept_boxes.h"
 #include "accel/paper/list_tree.h"
 
 namespace trapeze {
 
+/// Threads may trace at once, but not while refit() changes it.
 class MovingTree final : public ListTree {
   public:
     /// Builds in parallel. Keeps a reference to the grids. At most 2^30 micropolygons and parts.
@@ -33,6 +36,8 @@ class MovingTree final : public ListTree {
     struct LeafBoxes;
 
     void build();
+    /// Makes a tree by the surface area heuristic, with splits if there is a budget for them.
+    void build_spatial(const SweptBoxes& boxes, PhaseClock& clock, BuildPhases& phases);
     /// Says which node is which leaf, and which ones are below which.
     void link_nodes(const TopTopology& topology);
     /// Whether the lists have all micropolygons of grids, and no others.

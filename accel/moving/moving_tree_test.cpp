@@ -55,12 +55,11 @@ TEST(MovingTree, InTheOrderOfMortonCodesFindsWhatTestingEverythingFinds) {
 
 /// Codes divide space by halves: what is left of a plane's middle is below what is right of it.
 TEST(LinearTopology, DividesByTheHighestBit) {
-    std::vector<SahItem> items;
-    for (const float x : {.9f, .1f, .6f, .2f, .4f, .0f, 1.f})
-        items.push_back({Box3f(V3f(x, 0, 0)), 1, static_cast<uint32_t>(items.size())});
-    const SpatialTopology topology = build_linear_topology(items, 2);
+    std::vector<V3f> points;
+    for (const float x : {.9f, .1f, .6f, .2f, .4f, .0f, 1.f}) points.push_back(V3f(x, 0, 0));
+    const LinearTopology topology = build_linear_topology(points, 2);
     std::vector<float> xs;
-    for (const SahItem& reference : topology.references) xs.push_back(reference.box.min.x);
+    for (const uint32_t item : topology.items) xs.push_back(points[item].x);
     EXPECT_EQ(xs, (std::vector<float>{0, .1f, .2f, .4f, .6f, .9f, 1}));
     EXPECT_EQ(topology.tree.inner.size(), 6u);
     // The root's lower side is what lies below a half.

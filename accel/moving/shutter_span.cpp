@@ -37,6 +37,7 @@ ShutterSpan when_not_above(size_t keys, const ValueAt& value_at, float at, Shutt
                 part.to = std::min(part.to, crossing + kTimeRounding);
             if (part.is_empty()) continue;
         }
+        // Times in between at which the value is larger are taken in: one span is kept, not several.
         span = span.is_empty() ? part : ShutterSpan{span.from, part.to};
     }
     return span;

@@ -51,12 +51,16 @@ struct Sides {
     std::vector<SahItem> low, high;
 };
 
+/// A node while the tree is built. References lie in the caller's array, or in that of the nearest ancestor
+/// that was cut.
 struct SpatialNode {
     std::unique_ptr<SpatialNode> low, high;  ///< none of a leaf
     std::span<const SahItem> references;     ///< of a leaf
     std::vector<SahItem> of_cut;  ///< what is below a node that was cut: more than there was before
 };
 
+/// Builds from the root down. Parting sorts references where they are; only a cut makes more of them, and
+/// takes memory for both of its sides.
 class SpatialBuilder {
   public:
     SpatialBuilder(const Grids& grids, const std::vector<MicropolygonId>& ids, const SpatialOptions& options)
@@ -130,6 +134,7 @@ class SpatialBuilder {
         sah::Binning binning{Box3f()};
     };
 
+    /// By a sweep of few references, by bins of many. Cost infinite where all middles coincide.
     static Parting best_parting(std::span<const SahItem> all, const sah::Extent& extent) {
         Parting best;
         sah::Bin low, high;
@@ -234,6 +239,7 @@ class SpatialBuilder {
                           [&](size_t i) { middle_[i] = pose_of(grids_.grids[ids_[i].grid], ids_[i], 0.5f); });
     }
     const QuadPose& pose_at_middle(uint32_t id) const { return middle_[PartId::index(id)]; }
+    /// The two parts of a reference's box: those of its polygon (tight), or of the box alone.
     Chopped divided(const QuadPose& pose, const Box3f& box, int axis, float at) const {
         return options_.tight ? chop(pose, box, axis, at) : cut_box(box, axis, at);
     }
@@ -288,6 +294,8 @@ class SpatialBuilder {
         return best;
     }
 
+    /// A reference counts below a plane if it begins below, and above if it ends above: what the plane cuts
+    /// counts on both sides [Stich09].
     void consider_planes(std::span<const SahItem> references, const Slabs& slabs, double node_area,
                          bool tight, Cut& best) const {
         if (slabs.count == 0) return;
@@ -348,6 +356,7 @@ class SpatialBuilder {
         }
     }
 
+    /// Cuts polygons slab by slab from below: what is left above a plane goes on to the next one.
     void add_polygons(std::span<const SahItem> references, const Slabs& slabs, InSlabs& in) const {
         for (const SahItem& item : references) {
             const size_t first = slabs.of(item.box.min[slabs.axis]);
@@ -379,6 +388,8 @@ class SpatialBuilder {
         }
     }
 
+    /// One that the plane goes through: cut, or whole on the side where that costs least. A side that takes
+    /// it whole grows, and the other counts one less, so that those which follow are judged by that.
     void cut_reference(const SahItem& item, Cut& cut, size_t& budget, Sides& sides) {
         const Chopped parts = divided(pose_at_middle(item.id), item.box, cut.axis, cut.at);
         if (parts.low.isEmpty() || parts.high.isEmpty()) {

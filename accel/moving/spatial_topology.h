@@ -20,12 +20,14 @@ struct PartId {
     static bool is_part(uint32_t id) { return id & kPart; }
 };
 
+/// The budget bounds memory: planes that cut much could else double the references at each level.
 struct SpatialOptions {
     size_t leaf_below = 8;  ///< leaves have fewer references
     size_t budget = 0;      ///< references that splits may add in all; 0: no spatial splits
     bool tight = true;  ///< parts' boxes are those of their polygons; else what planes leave of the whole box
 };
 
+/// Leaf i has references leaf_first[i] to leaf_first[i + 1] - 1. What planes have cut is in several leaves.
 struct SpatialTopology {
     TopTopology tree;                  ///< its leaves are numbered from left to right
     std::vector<uint32_t> leaf_first;  ///< leaf -> its first reference; one more than leaves

@@ -2,8 +2,10 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "accel/builders/micropolygon_boxes.h"
 #include "core/motion_keys.h"
@@ -11,39 +13,98 @@
 namespace trapeze {
 namespace {
 
-/// Boxes of all micropolygons of a grid, those at all keys of one after another.
-void boxes_at_keys_of_grid(const Grid& grid, Box3f* boxes) {
-    std::array<V3f, kMaxGridVertices> vertices;
-    for (int key = 0; key < grid.key_count; ++key) {
-        for (int j = 0; j <= grid.shape.nv; ++j)
-            for (int i = 0; i <= grid.shape.nu; ++i)
-                vertices[static_cast<size_t>(grid.shape.row_index(i, j))] = vertex_of_key(grid, key, i, j);
-        for_each_box(grid.shape, vertices.data(), [&](int i, const Box3f& box) {
-            boxes[i * grid.key_count + key] = grown_for_rounding(box);
-        });
-    }
+/// Reads the vertices of a grid at a key, row by row; returns their largest coordinate.
+float read_vertices(const Grid& grid, int key, std::array<V3f, kMaxGridVertices>& vertices) {
+    const KeyVertices at_key(grid, key);
+    float largest = 0;
+    size_t n = 0;
+    for (int j = 0; j <= grid.shape.nv; ++j)
+        for (int i = 0; i <= grid.shape.nu; ++i, ++n) {
+            const V3f p = at_key[grid.shape.tiled_index(i, j)];
+            vertices[n] = p;
+            for (int k = 0; k < 3; ++k) largest = std::max(largest, std::abs(p[k]));
+        }
+    return largest;
+}
+
+Box3f infinite_box() {
+    const V3f infinity(std::numeric_limits<float>::infinity());
+    return {-infinity, infinity};
 }
 
 }  // namespace
 
-SweptBoxes::SweptBoxes(const Grids& grids, const std::vector<GridSummary>& summaries) {
-    std::vector<uint32_t> first_of_grid(grids.grids.size());
-    size_t boxes = 0;
-    for (size_t g = 0; g < grids.grids.size(); ++g) {
+/// Boxes lie micropolygon by micropolygon, all keys of one beside each other. Where grids have one number of
+/// keys, a product finds them, and first_ stays empty.
+template <class Counts>
+void SweptBoxes::lay_out(const Grids& grids, const Counts& counts) {
+    const size_t grid_count = grids.grids.size();
+    first_of_grid_.resize(grid_count), first_box_of_grid_.resize(grid_count);
+    size_t micropolygons = 0, boxes = 0;
+    same_keys_ = grid_count > 0 ? grids.grids[0].key_count : 0;
+    for (size_t g = 0; g < grid_count; ++g) {
         const Grid& grid = grids.grids[g];
-        first_of_grid[g] = static_cast<uint32_t>(boxes);
-        if (!std::isfinite(summaries[g].absolute_max)) continue;
-        for (int i = 0; i < grid.shape.micropolygon_count(); ++i) {
-            first_.push_back(static_cast<uint32_t>(boxes));
-            ids_.push_back(micropolygon_of_grid(g, grid.shape, i));
-            boxes += grid.key_count;
-        }
+        first_of_grid_[g] = static_cast<uint32_t>(micropolygons);
+        first_box_of_grid_[g] = static_cast<uint32_t>(boxes);
+        if (!counts(g)) continue;
+        const auto of_grid = static_cast<size_t>(grid.shape.micropolygon_count());
+        micropolygons += of_grid, boxes += of_grid * grid.key_count;
     }
-    first_.push_back(static_cast<uint32_t>(boxes));
-    boxes_.resize(boxes);
+    for (const Grid& grid : grids.grids)
+        if (grid.key_count != same_keys_) same_keys_ = 0;
+    ids_ = UnsetArray<MicropolygonId>(micropolygons);
+    boxes_ = UnsetArray<Box3f>(boxes);
+    if (same_keys_ == 0)
+        first_ = UnsetArray<uint32_t>(micropolygons + 1),
+        first_.set(micropolygons, static_cast<uint32_t>(boxes));
+    tbb::parallel_for(size_t{0}, grid_count, [&](size_t g) {
+        if (!counts(g)) return;
+        const GridShape& shape = grids.grids[g].shape;
+        const auto keys = static_cast<uint32_t>(grids.grids[g].key_count);
+        size_t index = first_of_grid_[g];
+        uint32_t first = first_box_of_grid_[g];
+        for (int v = 0; v < shape.nv; ++v)
+            for (int u = 0; u < shape.nu; ++u, ++index, first += keys) {
+                ids_.set(index, {static_cast<uint32_t>(g), static_cast<uint8_t>(u), static_cast<uint8_t>(v)});
+                if (same_keys_ == 0) first_.set(index, first);
+            }
+    });
+}
+
+SweptBoxes::SweptBoxes(const Grids& grids, const std::vector<GridSummary>& summaries) {
+    const auto counts = [&](size_t g) { return std::isfinite(summaries[g].absolute_max); };
+    lay_out(grids, counts);
     tbb::parallel_for(size_t{0}, grids.grids.size(), [&](size_t g) {
-        if (std::isfinite(summaries[g].absolute_max))
-            boxes_at_keys_of_grid(grids.grids[g], boxes_.data() + first_of_grid[g]);
+        if (!counts(g)) return;
+        const Grid& grid = grids.grids[g];
+        std::array<V3f, kMaxGridVertices> vertices;
+        for (int key = 0; key < grid.key_count; ++key) {
+            read_vertices(grid, key, vertices);
+            for_each_box(grid.shape, vertices.data(), [&](int i, const Box3f& box) {
+                boxes_.set(first_box_of_grid_[g] + static_cast<size_t>(i * grid.key_count + key),
+                           grown_for_rounding(box));
+            });
+        }
+    });
+}
+
+SweptBoxes::SweptBoxes(const Grids& grids) {
+    lay_out(grids, [](size_t) { return true; });
+    tbb::parallel_for(size_t{0}, grids.grids.size(), [&](size_t g) {
+        const Grid& grid = grids.grids[g];
+        const size_t first = first_box_of_grid_[g];
+        std::array<V3f, kMaxGridVertices> vertices;
+        float largest = 0;
+        for (int key = 0; key < grid.key_count; ++key) {
+            largest = std::max(largest, read_vertices(grid, key, vertices));
+            for_each_box(grid.shape, vertices.data(), [&](int i, const Box3f& box) {
+                boxes_.set(first + static_cast<size_t>(i * grid.key_count + key), box);
+            });
+        }
+        // One coordinate too large takes the bounds of the whole grid.
+        if (largest <= kBoundableCoordinate) return;
+        const auto count = static_cast<size_t>(grid.shape.micropolygon_count() * grid.key_count);
+        for (size_t i = 0; i < count; ++i) boxes_.set(first + i, infinite_box());
     });
 }
 

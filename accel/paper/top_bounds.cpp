@@ -109,6 +109,8 @@ class Bounding {
         return both;
     }
 
+    /// What LeafBounds::own() gave, at as many keys as the tree has: nodes above read it again for each frame
+    /// that they try.
     struct Leaf {
         uint32_t index = 0;
         HyperTrapezoid box;

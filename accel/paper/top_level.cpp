@@ -57,6 +57,7 @@ class Pruning {
         return Kept{index, TopLink::inner(inner)};
     }
 
+    /// Appends a node with its frame and boxes as they were; its link is one of the new tree.
     void copy(const Kept& kept) {
         to_.nodes.push_back(from_.nodes[kept.source]);
         to_.nodes.back().link = kept.link;
@@ -109,6 +110,7 @@ Visits TopLevelView::enter(const TraceRay& ray) const {
 }
 
 Visits TopLevelView::step(const Visit& at, const TraceRay& ray) const {
+    // A visit names a link, and that of an inner node is its number as it is.
     const size_t first = 2 * size_t{at.node};
     std::array<Visit, 2> children;
     const bool met_first = meet(first, ray, children[0]), met_second = meet(first + 1, ray, children[1]);

@@ -8,6 +8,7 @@
 
 namespace trapeze {
 
+/// Exact: every bfloat16 is a float, whose lower bits are 0.
 inline float from_bfloat16(uint16_t bits) {
     return std::bit_cast<float>(uint32_t{bits} << 16);
 }

@@ -36,7 +36,7 @@ HWY_INLINE VF reciprocal(VF v) {
 }
 
 /// A block of up to 4 x 4 micropolygons of a grid in one motion segment, and what its hits are called.
-struct Block {
+struct SegmentBlock {
     BlockView view;
     int columns;
     Facing facing;
@@ -46,13 +46,14 @@ struct Block {
 };
 
 /// Block (u, v), in blocks, of grid number `index`.
-inline Block block_of(const WideGrid& grid, int segment, int u, int v, uint32_t index) {
+inline SegmentBlock block_of(const WideGrid& grid, int segment, int u, int v, uint32_t index) {
     const int tiles_u = grid.tiles_u(), tiles_v = grid.tiles_v();
     const size_t plane_size = grid.plane_size();
-    Block block;
+    SegmentBlock block;
     block.view.plane = plane_size;
     block.view.tile = grid.planes + static_cast<size_t>(segment) * 6 * plane_size +
                       static_cast<size_t>(v * tiles_u + u) * 16;
+    // To the next tile; where there is none, to the last column and row of this one once more.
     block.view.right = u + 1 < tiles_u ? 16 : 3;
     block.view.down = v + 1 < tiles_v ? tiles_u * 16 : 12;
     block.view.rows = std::min(4, grid.nv - 4 * v);
@@ -82,15 +83,15 @@ HWY_INLINE VF edge_bits(const Offset& p, const Offset& q) {
     return predicate_lanes::crossing(p.a, p.b, p.abs_b, q.a, q.b, q.abs_b);
 }
 
-/// Vertex (i, j) of a block at the rays' times, moved along them by the predicate's arithmetic. kMoves: the
+/// Vertex (i, j) of a block at the rays' times, moved along them by the predicate's arithmetic. kMotion: the
 /// grid moves, kLens: origins are not all 0.
-template <bool kMoves, bool kLens>
+template <bool kMotion, bool kLens>
 HWY_INLINE Offset vertex_offset(const BlockView& block, int i, int j, const RayLanes& r) {
     const F32 d;
     const float* p = block.tile + block.offset(i, j);
     const size_t s = block.plane;
     VF x = hn::Set(d, p[0]), y = hn::Set(d, p[s]), z = hn::Set(d, p[2 * s]);
-    if constexpr (kMoves) {
+    if constexpr (kMotion) {
         x = position_at(x, hn::Set(d, p[3 * s]), r.local);
         y = position_at(y, hn::Set(d, p[4 * s]), r.local);
         z = position_at(z, hn::Set(d, p[5 * s]), r.local);
@@ -110,13 +111,13 @@ struct BlockBits {
 /// once for all micropolygons that share it. kColumns: 4, or 1 for the block of a ribbon. Columns past a
 /// grid's end have no area: their two sides are the same edge, which cancels. Facing and depth are not looked
 /// at.
-template <bool kMoves, bool kLens, int kColumns>
+template <bool kMotion, bool kLens, int kColumns>
 HWY_INLINE BlockBits block_bits(const BlockView& block, const RayLanes& r) {
     const VF zero = hn::Zero(F32());
     Offset p[kColumns + 1];
     VF bottom[kColumns];
 #pragma GCC unroll 5
-    for (int i = 0; i <= kColumns; ++i) p[i] = vertex_offset<kMoves, kLens>(block, i, 0, r);
+    for (int i = 0; i <= kColumns; ++i) p[i] = vertex_offset<kMotion, kLens>(block, i, 0, r);
 #pragma GCC unroll 4
     for (int i = 0; i < kColumns; ++i) bottom[i] = edge_bits(p[i], p[i + 1]);
 
@@ -128,7 +129,7 @@ HWY_INLINE BlockBits block_bits(const BlockView& block, const RayLanes& r) {
         VF side[kColumns + 1], top[kColumns], hit[kColumns];
 #pragma GCC unroll 5
         for (int i = 0; i <= kColumns; ++i) {
-            q[i] = vertex_offset<kMoves, kLens>(block, i, j + 1, r);
+            q[i] = vertex_offset<kMotion, kLens>(block, i, j + 1, r);
             side[i] = edge_bits(p[i], q[i]);
         }
 #pragma GCC unroll 4
@@ -176,6 +177,8 @@ using CornerLookup = TwoRegisterLookup<WideRegisters>;
 #else
 class CornerLookup {
   public:
+    /// Places of the corners in a plane, from the tile on: four floats a row, and beyond the fourth row or
+    /// column where the view leads.
     CornerLookup(const BlockView& block, VI u, VI v) : block_(block) {
         const I32 di;
         const VI three = hn::Set(di, 3), row = hn::ShiftLeft<2>(v);
@@ -199,7 +202,7 @@ class CornerLookup {
 
 /// Micropolygons (u, v) of the block, each lane its own, moved along the rays: what depth_inside() and
 /// inside() read.
-template <bool kMoves, bool kLens>
+template <bool kMotion, bool kLens>
 HWY_INLINE QuadLanes<VF> quads_at(const BlockView& block, const RayLanes& r, VI u, VI v) {
     const F32 d;
     const CornerLookup lookup(block, u, v);
@@ -207,7 +210,7 @@ HWY_INLINE QuadLanes<VF> quads_at(const BlockView& block, const RayLanes& r, VI 
 #pragma GCC unroll 3
     for (int k = 0; k < 3; ++k) {
         lookup.get(k, c[k]);
-        if constexpr (kMoves) {
+        if constexpr (kMotion) {
             VF delta[4];
             lookup.get(3 + k, delta);
 #pragma GCC unroll 4

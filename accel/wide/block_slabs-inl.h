@@ -123,12 +123,12 @@ HWY_INLINE bool slab_axes(const BlockView& block, BlockSlabs& slabs) {
 /// Finds a block's slabs; false where its vertices make no plane. `grow`: what rounds away between a vertex
 /// and the test of a ray, WideTree's for vertices and rays like these. Slabs are linear in time between those
 /// at the segment's ends, and so hold vertices, which move linearly, at all times.
-template <bool kMoves>
+template <bool kMotion>
 HWY_INLINE bool slabs_of(const BlockView& block, float grow, BlockSlabs& slabs) {
     if (!slab_axes(block, slabs)) return false;
     BlockVertices at, delta;
     at.load(block, 0);
-    if constexpr (kMoves) delta.load(block, 3);
+    if constexpr (kMotion) delta.load(block, 3);
     BlockSlab* all[3] = {&slabs.thick, &slabs.side[0], &slabs.side[1]};
     // Products of what is tested round, too.
     const auto grown = [grow](float half_width) { return half_width * (1 + 0x1p-12f) + grow; };
@@ -136,7 +136,7 @@ HWY_INLINE bool slabs_of(const BlockView& block, float grow, BlockSlabs& slabs) 
         at.span(slab->axis, slab->center, slab->half);
         slab->half = grown(slab->half);
     }
-    if constexpr (kMoves) {
+    if constexpr (kMotion) {
         at.add(delta);
         for (BlockSlab* slab : all) {
             float center, half_width;
@@ -150,7 +150,7 @@ HWY_INLINE bool slabs_of(const BlockView& block, float grow, BlockSlabs& slabs) 
 
 /// Lanes of rays that miss the block for certain: from where a ray enters to where it leaves the slab across
 /// the block, it is beside one of the slabs along it. Comparisons with NaN leave a ray in.
-template <bool kMoves, bool kLens>
+template <bool kMotion, bool kLens>
 HWY_INLINE MF misses(const BlockSlabs& slabs, const RayLanes& r) {
     const F32 d;
     const auto along = [&](const BlockSlab& s) HWY_ATTR {
@@ -160,7 +160,7 @@ HWY_INLINE MF misses(const BlockSlabs& slabs, const RayLanes& r) {
     /// The distance along the slab's axis from the ray's origin to the slab's middle.
     const auto distance = [&](const BlockSlab& s) HWY_ATTR {
         VF center = hn::Set(d, s.center);
-        if constexpr (kMoves) center = hn::MulAdd(r.local, hn::Set(d, s.center_delta), center);
+        if constexpr (kMotion) center = hn::MulAdd(r.local, hn::Set(d, s.center_delta), center);
         if constexpr (kLens)
             center = hn::NegMulAdd(hn::Set(d, s.axis[0]), r.ox,
                                    hn::NegMulAdd(hn::Set(d, s.axis[1]), r.oy, center));
@@ -168,7 +168,7 @@ HWY_INLINE MF misses(const BlockSlabs& slabs, const RayLanes& r) {
     };
     const auto half_of = [&](const BlockSlab& s) HWY_ATTR {
         VF value = hn::Set(d, s.half);
-        if constexpr (kMoves) value = hn::MulAdd(r.local, hn::Set(d, s.half_delta), value);
+        if constexpr (kMotion) value = hn::MulAdd(r.local, hn::Set(d, s.half_delta), value);
         return value;
     };
     // In the slab across, the depth is within `reach` of `depth`; on that way the ray moves by slope * reach

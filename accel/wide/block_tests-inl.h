@@ -25,7 +25,7 @@ inline constexpr size_t kFewInBlock = 3;
 
 /// Keeps the hits of a vector of block rays, those from `first` on, that are within the depths that count.
 /// `hit`: lanes that hit micropolygon (u, v) of the block at `depth`.
-inline void settle(BundleState& t, const Block& block, size_t first, MF hit, VI u, VI v, VF depth) {
+inline void keep_hits(BundleState& t, const SegmentBlock& block, size_t first, MF hit, VI u, VI v, VF depth) {
     const F32 d;
     const I32 di;
     hit =
@@ -35,6 +35,8 @@ inline void settle(BundleState& t, const Block& block, size_t first, MF hit, VI 
     HWY_ALIGN float depths[kLanes];
     HWY_ALIGN int32_t uv[kLanes];
     hn::Store(depth, d, depths);
+    // As in MicropolygonId::packed(): added to the id of the block's first, whose u and v are multiples of
+    // four.
     hn::Store(hn::Or(u, hn::ShiftLeft<4>(v)), di, uv);
     for (; lanes != 0; lanes &= lanes - 1) {
         const auto lane = static_cast<size_t>(std::countr_zero(lanes));
@@ -45,20 +47,20 @@ inline void settle(BundleState& t, const Block& block, size_t first, MF hit, VI 
 
 /// Tests one ray, at a time local to the block's segment, against all micropolygons of a block: lanes are
 /// micropolygons. Whether the ray looks less far now.
-template <bool kMoves, bool kLens>
-bool test_one_ray(BundleState& t, const Block& block, uint32_t ray, float local) {
+template <bool kMotion, bool kLens>
+bool test_one_ray(BundleState& t, const SegmentBlock& block, uint32_t ray, float local) {
     const F32 d;
     const I32 di;
     RayLanes r;
     if constexpr (kLens) r.ox = hn::Set(d, t.rays.ox[ray]), r.oy = hn::Set(d, t.rays.oy[ray]);
     r.ux = hn::Set(d, t.rays.ux[ray]), r.uy = hn::Set(d, t.rays.uy[ray]);
-    if constexpr (kMoves) r.local = hn::Set(d, local);
+    if constexpr (kMotion) r.local = hn::Set(d, local);
     bool nearer = false;
     for (int m = 0; m < 4 * block.view.rows; m += static_cast<int>(kLanes)) {
         const VI number = lane_numbers(di, m), u = hn::And(number, hn::Set(di, 3)),
                  v = hn::ShiftRight<2>(number);
         VF depth = hn::Zero(d);
-        const QuadLanes<VF> q = quads_at<kMoves, kLens>(block.view, r, u, hn::And(v, hn::Set(di, 3)));
+        const QuadLanes<VF> q = quads_at<kMotion, kLens>(block.view, r, u, hn::And(v, hn::Set(di, 3)));
         MF hit = inside(d, q);
         if (hn::AllFalse(d, hit)) continue;
         hit = hn::And(hit, depth_inside(d, q, block.facing, depth));
@@ -81,26 +83,26 @@ bool test_one_ray(BundleState& t, const Block& block, uint32_t ray, float local)
 }
 
 /// Counts what `rays` rays cost that meet a block: a leaf each, and its micropolygons.
-inline void count_block_tests(BundleState& t, const Block& block, size_t rays) {
+inline void count_block_tests(BundleState& t, const SegmentBlock& block, size_t rays) {
     t.stats.leaves_visited += rays;
     t.stats.predicate_tests += rays * static_cast<uint64_t>(block.view.rows * block.columns);
 }
 /// Adds a block's tests to one ray's own costs.
-inline void count_tests_of(BundleState& t, const Block& block, uint32_t ray) {
+inline void count_tests_of(BundleState& t, const SegmentBlock& block, uint32_t ray) {
     t.rays.tests[ray] += static_cast<uint32_t>(block.view.rows * block.columns);
 }
 
 /// Tests the first `count` of the rays listed for a block and keeps what they hit.
-template <bool kMoves, bool kLens>
-void test_block_rays(BundleState& t, const Block& block, size_t count) {
+template <bool kMotion, bool kLens>
+void test_block_rays(BundleState& t, const SegmentBlock& block, size_t count) {
     const F32 d;
     const BlockRays& from = t.scratch.block;
     count_block_tests(t, block, count);
     if (t.rays.tests)
         for (size_t i = 0; i < count; ++i) count_tests_of(t, block, t.scratch.active.ray[from.active[i]]);
     const auto test_one = [&](size_t i) HWY_ATTR {
-        test_one_ray<kMoves, kLens>(t, block, t.scratch.active.ray[from.active[i]],
-                                    kMoves ? from.local[i] : 0.0f);
+        test_one_ray<kMotion, kLens>(t, block, t.scratch.active.ray[from.active[i]],
+                                     kMotion ? from.local[i] : 0.0f);
     };
     for (size_t i = 0; i < count; i += kLanes) {
         const size_t left = count - i;
@@ -111,10 +113,10 @@ void test_block_rays(BundleState& t, const Block& block, size_t count) {
         RayLanes r;
         if constexpr (kLens) r.ox = hn::Load(d, from.ox + i), r.oy = hn::Load(d, from.oy + i);
         r.ux = hn::Load(d, from.ux + i), r.uy = hn::Load(d, from.uy + i);
-        if constexpr (kMoves) r.local = hn::Load(d, from.local + i);
+        if constexpr (kMotion) r.local = hn::Load(d, from.local + i);
         // Lanes past `count` hold whatever an earlier list left, and `valid` takes their answers away.
-        const BlockBits bits = block.columns == 1 ? block_bits<kMoves, kLens, 1>(block.view, r)
-                                                  : block_bits<kMoves, kLens, 4>(block.view, r);
+        const BlockBits bits = block.columns == 1 ? block_bits<kMotion, kLens, 1>(block.view, r)
+                                                  : block_bits<kMotion, kLens, 4>(block.view, r);
         const MF valid = hn::FirstN(d, left);
         const MF any = hn::And(predicate_lanes::negative(d, bits.any), valid);
         if (hn::AllFalse(d, any)) continue;
@@ -122,9 +124,9 @@ void test_block_rays(BundleState& t, const Block& block, size_t count) {
         VI u, v;
         decode(bits, u, v);
         VF depth = hn::Zero(d);
-        const MF faces = depth_inside(d, quads_at<kMoves, kLens>(block.view, r, u, v), block.facing, depth);
+        const MF faces = depth_inside(d, quads_at<kMotion, kLens>(block.view, r, u, v), block.facing, depth);
         const MF hit = hn::AndNot(several, hn::And(any, faces));
-        settle(t, block, i, hit, u, v, depth);
+        keep_hits(t, block, i, hit, u, v, depth);
         for (uint32_t more = mask_bits(several); more != 0; more &= more - 1)
             test_one(i + static_cast<size_t>(std::countr_zero(more)));
     }

@@ -58,6 +58,7 @@ HWY_INLINE void read_moving_frame(const WideTree& tree, const WideGrid& grid, in
 
     const uint8_t* bytes = tree.keys_of(grid);
     const hn::FixedTag<uint8_t, 16> d8;
+    // The bounds over all keys, three floats each; a fourth lane means nothing.
     const auto low = hn::BitCast(d, hn::LoadU(d8, bytes)),
                high = hn::BitCast(d, hn::LoadU(d8, bytes + sizeof(float[3])));
     const auto step = hn::Mul(hn::Sub(high, low), hn::Set(d, 1.0f / 255));
@@ -75,14 +76,14 @@ HWY_INLINE void read_moving_frame(const WideTree& tree, const WideGrid& grid, in
 }
 
 /// Decodes the boxes of a grid in a segment of its motion, of which the frame has been read: rows 0 to 5 at
-/// the segment's start and, if kMoves, rows 6 to 11 how far they move.
-template <bool kMoves>
+/// the segment's start and, if kMotion, rows 6 to 11 how far they move.
+template <bool kMotion>
 HWY_INLINE void decode_boxes(const WideTree& tree, const WideGrid& grid, int segment,
                              const SegmentFrame& frame, BoxPlanes& out) {
     const hn::CappedTag<float, BoxPlanes::kMost> d;
     const auto boxes = static_cast<size_t>(grid.box_count());
     const GridKeys keys(grid, tree.keys_of(grid));
-    for (int end = 0; end < (kMoves ? 2 : 1); ++end) {
+    for (int end = 0; end < (kMotion ? 2 : 1); ++end) {
         const uint8_t* codes = keys.box_codes(segment + end);
         const KeyBounds& whole = frame.at[end];
         float* rows = out.row(6 * static_cast<size_t>(end));
@@ -92,7 +93,7 @@ HWY_INLINE void decode_boxes(const WideTree& tree, const WideGrid& grid, int seg
             decode_row(codes + (3 + k) * boxes, scale, boxes, rows + (3 + k) * BoxPlanes::kMost);
         }
     }
-    if constexpr (kMoves)
+    if constexpr (kMotion)
         // Rows 6 to 11 hold planes at the end so far. What places past the last box give means nothing.
         for (size_t i = 0; i < 6 * BoxPlanes::kMost; i += hn::Lanes(d))
             hn::Store(hn::Sub(hn::Load(d, out.row(6) + i), hn::Load(d, out.row(0) + i)), d, out.row(6) + i);

@@ -35,6 +35,8 @@ HWY_AFTER_NAMESPACE();
 namespace trapeze {
 namespace {
 
+using testing::for_each_target;
+
 HWY_EXPORT(read_in_vectors);
 
 /// Grids of every shape, ribbons among them, that turn, move and swell; some far from the origin.

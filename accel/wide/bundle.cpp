@@ -57,6 +57,8 @@ class RayGatherer {
         const hn::FixedTag<float, 2> pair;
         const auto from = [&](size_t k) { return reinterpret_cast<const float*>(rays_ + order_[i + k]); };
         const float *a = from(0), *b = from(1), *c = from(2), *e = from(3);
+        // A ray is ox, oy, oz, ux, uy, time: its first four floats are one load, its last two come with
+        // another ray's.
         const auto first = [d](const float* ray) HWY_ATTR { return hn::LoadU(d, ray); };
         const auto last = [d, pair](const float* x, const float* y) HWY_ATTR {
             return hn::Combine(d, hn::LoadU(pair, y + 4), hn::LoadU(pair, x + 4));
@@ -120,6 +122,7 @@ void trace_bundle(const WideTree& tree, DepthRange range, bool lens, float focal
                   BundleScratch& scratch, SampleStats& stats) {
     rays.layers.begin(rays.wanted_layers.most == 0 ? 0 : rays.count, rays.wanted_layers);
     if (rays.count == 0) return;
+    // Without a lens the focal distance may be any: 0 for its inverse leaves out what it is multiplied by.
     const TraceInput in{tree, range, lens ? 1 / focal_distance : 0.0f, rays, scratch, stats};
     HWY_DYNAMIC_DISPATCH(trace)(in, {tree.moves(), lens});
 }

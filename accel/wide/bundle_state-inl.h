@@ -24,6 +24,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr uint32_t kAllLanes = (1u << kLanes) - 1;
+/// Bytes of a mask in memory, a bit a lane.
 constexpr size_t kMaskBytes = (kLanes + 7) / 8;
 constexpr uint32_t kLanesOfByte = kLanes < 8 ? kLanes : 8;  ///< of a mask as it is stored
 constexpr size_t kMetStride = BundleScratch::kMetStride;

@@ -65,6 +65,7 @@ class BundleTrace {
             prefetch_coming();
             visit_grid(candidate);
         }
+        // Those that the last grids have left: fewer than fill the list.
         test_waiting<kMotion, kLens>(t_);
         t_.stats.rays += t_.rays.count;
     }
@@ -169,13 +170,13 @@ class BundleTrace {
         }
     }
 
-    /// A grid in one segment of its motion: its active rays, then what they meet in it. kMoves: the grid
+    /// A grid in one segment of its motion: its active rays, then what they meet in it. kGridMoves: the grid
     /// moves (others in the tree may move where this one does not).
-    template <bool kMoves>
+    template <bool kGridMoves>
     void visit_segment(const Candidate& candidate, const WideGrid& grid, int segment) {
         const MovingBox box = t_.tree.segment_box(grid, segment);
-        collect_active<kMoves, kLens>(t_, box, grid, segment, candidate);
-        test_active<kMoves, kLens>(t_, candidate, box, grid, segment);
+        collect_active<kGridMoves, kLens>(t_, box, grid, segment, candidate);
+        test_active<kGridMoves, kLens>(t_, candidate, box, grid, segment);
         if (t_.scratch.waiting_count >= BundleScratch::kMostWaiting) test_waiting<kMotion, kLens>(t_);
     }
 

@@ -15,6 +15,7 @@ ExtentTree::ExtentTree(std::span<const GridExtent> extents) {
     }
     if (!bounded.empty()) nodes_ = build_wide_top(extents, bounded);
     largest_.resize(nodes_.size());
+    // What is below a node comes after it, and is known first.
     for (size_t n = nodes_.size(); n-- > 0;)
         for (int i = 0; i < nodes_[n].count; ++i) {
             const uint32_t link = nodes_[n].child[i].link;
@@ -31,6 +32,8 @@ ExtentTree::ExtentTree(std::span<const GridExtent> extents) {
         }
 }
 
+/// Record and keys are made for the extent alone, and thrown away. It grows as for a ray without slope from
+/// the origin; visit() adds what rounds for the ray at hand.
 GridExtent extent_of(const Grid& grid) {
     WideGrid record;
     record.nu = grid.shape.nu, record.nv = grid.shape.nv, record.key_count = grid.key_count;
@@ -41,6 +44,7 @@ GridExtent extent_of(const Grid& grid) {
     return extent;
 }
 
+/// Boxes are linear over the shutter: those about both at its two ends hold both at all times.
 GridExtent united(const GridExtent& a, const GridExtent& b) {
     GridExtent both = a;
     for (int end = 0; end < 2; ++end)

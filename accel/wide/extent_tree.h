@@ -47,6 +47,8 @@ class ExtentTree {
     };
     using ChildrenLargest = std::array<Largest, WideNode::kChildren>;
 
+    /// Children are sorted by depth, for a thing that is seen may have to be made, beside which sorting is
+    /// nothing. Each is compared with the range again when its turn comes.
     template <class See>
     void visit_node(uint32_t number, const FrameRay& frame_ray, TraceRay& ray, const See& see) const {
         const WideChildren& node = nodes_[number];

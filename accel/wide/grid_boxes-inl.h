@@ -33,18 +33,19 @@ inline constexpr size_t kFewInGrid = std::min<size_t>(kLanes / 2, 8);
 /// Tests a vector of active rays, those from `i` on, against one box after another, and writes a mask for
 /// each box, kMetStride bytes apart from `met` on. kAlike: along each axis all look to the same side
 /// (sides[k]: against it), so that it is known which plane of a box comes first.
-template <bool kMoves, bool kLens, bool kAlike>
+template <bool kMotion, bool kLens, bool kAlike>
 void meet_boxes_of(BundleState& t, size_t i, const float* planes, int boxes, const int* sides, uint8_t* met) {
     const F32 d;
     const ActiveRays& active = t.scratch.active;
     constexpr size_t stride = BoxPlanes::kMost;
-    const VF local = kMoves ? hn::Load(d, active.local + i) : hn::Zero(d);
+    const VF local = kMotion ? hn::Load(d, active.local + i) : hn::Zero(d);
     const VF limit = hn::Load(d, active.limit + i);
     VF inverse[3], offset[3];
     const float *first[3], *last[3];
     for (size_t k = 0; k < 3; ++k) {
         inverse[k] = hn::Load(d, active.inverse[k] + i);
         offset[k] = kLens ? hn::Load(d, active.offset[k] + i) : hn::Zero(d);
+        // Rows 0 to 2 are low planes, 3 to 5 high ones; six rows further on is how far each moves.
         first[k] = planes + (k + (kAlike && sides[k] ? 3 : 0)) * stride;
         last[k] = planes + (k + (kAlike && sides[k] ? 0 : 3)) * stride;
     }
@@ -52,7 +53,7 @@ void meet_boxes_of(BundleState& t, size_t i, const float* planes, int boxes, con
         VF near, far;
         for (int k = 0; k < 3; ++k) {
             VF from = hn::Set(d, first[k][b]), to = hn::Set(d, last[k][b]);
-            if constexpr (kMoves) {
+            if constexpr (kMotion) {
                 from = hn::MulAdd(local, hn::Set(d, first[k][b + 6 * stride]), from);
                 to = hn::MulAdd(local, hn::Set(d, last[k][b + 6 * stride]), to);
             }
@@ -71,11 +72,11 @@ void meet_boxes_of(BundleState& t, size_t i, const float* planes, int boxes, con
 
 /// Lanes past the end of the active rays meet nothing, whatever an earlier bundle has left there: infinities
 /// would.
-template <bool kMoves, bool kLens>
+template <bool kMotion, bool kLens>
 void pad_active(ActiveRays& active) {
     const F32 d;
     hn::StoreU(hn::Set(d, -HUGE_VALF), d, active.limit + active.count);
-    if constexpr (kMoves) hn::StoreU(hn::Zero(d), d, active.local + active.count);
+    if constexpr (kMotion) hn::StoreU(hn::Zero(d), d, active.local + active.count);
     for (int k = 0; k < 3; ++k) {
         hn::StoreU(hn::Zero(d), d, active.inverse[k] + active.count);
         if constexpr (kLens) hn::StoreU(hn::Zero(d), d, active.offset[k] + active.count);
@@ -102,12 +103,13 @@ inline size_t count_bits(const uint8_t* row, size_t bytes) {
 }
 
 /// Tests all active rays, in vectors, against one box after another; a bit for each box that any ray meets.
-template <bool kMoves, bool kLens>
+template <bool kMotion, bool kLens>
 uint32_t meet_boxes_in_turn(BundleState& t, const float* planes, int boxes) {
     const F32 d;
     ActiveRays& active = t.scratch.active;
-    pad_active<kMoves, kLens>(active);
+    pad_active<kMotion, kLens>(active);
     for (size_t i = 0; i < active.count; i += kLanes) {
+        // Lanes past the end have no side: they must not make a vector count as one of both.
         const uint32_t valid = active.count - i < kLanes ? (1u << (active.count - i)) - 1 : kAllLanes;
         int sides[3];
         bool alike = true;
@@ -121,9 +123,9 @@ uint32_t meet_boxes_in_turn(BundleState& t, const float* planes, int boxes) {
         }
         uint8_t* met = t.scratch.met + i / kLanes * kMaskBytes;
         if (alike)
-            meet_boxes_of<kMoves, kLens, true>(t, i, planes, boxes, sides, met);
+            meet_boxes_of<kMotion, kLens, true>(t, i, planes, boxes, sides, met);
         else
-            meet_boxes_of<kMoves, kLens, false>(t, i, planes, boxes, sides, met);
+            meet_boxes_of<kMotion, kLens, false>(t, i, planes, boxes, sides, met);
     }
     uint32_t any = 0;
     const size_t bytes = (active.count + kLanes - 1) / kLanes * kMaskBytes;
@@ -134,7 +136,7 @@ uint32_t meet_boxes_in_turn(BundleState& t, const float* planes, int boxes) {
 
 /// What meet_boxes_in_turn() does, for at most kFewInGrid rays: each against vectors of boxes, because
 /// vectors of so few rays would be nearly empty.
-template <bool kMoves, bool kLens>
+template <bool kMotion, bool kLens>
 uint32_t meet_boxes_each(BundleState& t, const float* planes, int boxes) {
     const F32 d;
     const ActiveRays& active = t.scratch.active;
@@ -143,7 +145,7 @@ uint32_t meet_boxes_each(BundleState& t, const float* planes, int boxes) {
     for (size_t b = 0; b < count; ++b) std::memset(t.scratch.met + b * kMetStride, 0, kMaskBytes);
     uint32_t any = 0;
     for (size_t r = 0; r < active.count; ++r) {
-        const VF local = kMoves ? hn::Set(d, active.local[r]) : hn::Zero(d);
+        const VF local = kMotion ? hn::Set(d, active.local[r]) : hn::Zero(d);
         uint32_t met = 0;
         for (size_t b = 0; b < count; b += kLanes) {
             VF near = hn::Set(d, -HUGE_VALF), far = hn::Set(d, active.limit[r]);
@@ -151,7 +153,7 @@ uint32_t meet_boxes_each(BundleState& t, const float* planes, int boxes) {
                 const float* low = planes + k * stride + b;
                 const float* high = low + 3 * stride;
                 VF from = hn::Load(d, low), to = hn::Load(d, high);
-                if constexpr (kMoves) {
+                if constexpr (kMotion) {
                     from = hn::MulAdd(local, hn::Load(d, low + 6 * stride), from);
                     to = hn::MulAdd(local, hn::Load(d, high + 6 * stride), to);
                 }
@@ -173,14 +175,14 @@ uint32_t meet_boxes_each(BundleState& t, const float* planes, int boxes) {
 
 /// Finds which active rays meet which boxes of a grid in a segment: in scratch.met a row for each box, a bit
 /// for each ray. Gives a bit for each box that any ray meets.
-template <bool kMoves, bool kLens>
+template <bool kMotion, bool kLens>
 uint32_t meet_boxes(BundleState& t, const WideGrid& grid, int segment, int boxes) {
-    decode_boxes<kMoves>(t.tree, grid, segment, t.scratch.frame, t.scratch.boxes);
+    decode_boxes<kMotion>(t.tree, grid, segment, t.scratch.frame, t.scratch.boxes);
     const float* planes = t.scratch.boxes.values;
     const size_t count = t.scratch.active.count;
     t.stats.nodes_visited += count * static_cast<size_t>(boxes);
-    return count <= kFewInGrid ? meet_boxes_each<kMoves, kLens>(t, planes, boxes)
-                               : meet_boxes_in_turn<kMoves, kLens>(t, planes, boxes);
+    return count <= kFewInGrid ? meet_boxes_each<kMotion, kLens>(t, planes, boxes)
+                               : meet_boxes_in_turn<kMotion, kLens>(t, planes, boxes);
 }
 
 /// What meet_boxes() does where the only box is the grid's own, which active rays are known to meet: sets all
@@ -196,15 +198,15 @@ inline uint32_t meet_only_box(BundleState& t) {
 
 /// Lists, of `candidates` active rays whose bits are set in the row of a block's box, those that do not pass
 /// the block by, in scratch.block; how many. `rounding`: what the block's bounds grow by.
-template <bool kMoves, bool kLens>
-size_t collect_block(BundleState& t, const Block& block, const uint8_t* met, size_t candidates,
+template <bool kMotion, bool kLens>
+size_t collect_block(BundleState& t, const SegmentBlock& block, const uint8_t* met, size_t candidates,
                      float rounding) {
     const F32 d;
     const hn::RebindToUnsigned<F32> du;
     const ActiveRays& active = t.scratch.active;
     BlockRays& to = t.scratch.block;
     BlockSlabs slabs;
-    const bool has_slabs = candidates >= kFewForSlabs && slabs_of<kMoves>(block.view, rounding, slabs);
+    const bool has_slabs = candidates >= kFewForSlabs && slabs_of<kMotion>(block.view, rounding, slabs);
     if (has_slabs) t.stats.nodes_visited += candidates;
     size_t count = 0;
     for (size_t i = 0; i < active.count; i += kLanes, met += kMaskBytes) {
@@ -215,16 +217,16 @@ size_t collect_block(BundleState& t, const Block& block, const uint8_t* met, siz
         RayLanes r;
         if constexpr (kLens) r.ox = hn::Load(d, active.ox + i), r.oy = hn::Load(d, active.oy + i);
         r.ux = hn::Load(d, active.ux + i), r.uy = hn::Load(d, active.uy + i);
-        if constexpr (kMoves) r.local = hn::Load(d, active.local + i);
+        if constexpr (kMotion) r.local = hn::Load(d, active.local + i);
         if (has_slabs) {
-            here = hn::AndNot(misses<kMoves, kLens>(slabs, r), here);
+            here = hn::AndNot(misses<kMotion, kLens>(slabs, r), here);
             bits = mask_bits(here);
             if (bits == 0) continue;
         }
         const CompactLanes compact(here);
         if constexpr (kLens) compact.store(r.ox, to.ox + count), compact.store(r.oy, to.oy + count);
         compact.store(r.ux, to.ux + count), compact.store(r.uy, to.uy + count);
-        if constexpr (kMoves) compact.store(r.local, to.local + count);
+        if constexpr (kMotion) compact.store(r.local, to.local + count);
         compact.store(lane_numbers(du, static_cast<uint32_t>(i)), to.active + count);
         count += static_cast<size_t>(std::popcount(bits));
     }
@@ -245,10 +247,11 @@ static_assert(BundleScratch::kMostWaiting + 16 * (kFewInBlock - 1) <= BundleScra
 
 /// Lets the few active rays whose bits are set in a row of meet_boxes() wait for a block, whose vertices are
 /// fetched meanwhile: waiting for them would take longer than the tests.
-template <bool kMoves>
-void let_wait(BundleState& t, const WaitingRay& common, const Block& block, const uint8_t* met) {
+template <bool kMotion>
+void let_wait(BundleState& t, const WaitingRay& common, const SegmentBlock& block, const uint8_t* met) {
     const ActiveRays& active = t.scratch.active;
-    for (size_t k = 0; k < (kMoves ? 6 : 3); ++k) {
+    // The vertices are in up to four tiles of each plane, a cache line each.
+    for (size_t k = 0; k < (kMotion ? 6 : 3); ++k) {
         const float* tile = block.view.tile + k * block.view.plane;
         __builtin_prefetch(tile);
         __builtin_prefetch(tile + block.view.right);
@@ -261,7 +264,7 @@ void let_wait(BundleState& t, const WaitingRay& common, const Block& block, cons
             WaitingRay& ray = t.scratch.waiting[t.scratch.waiting_count++];
             ray = common;
             ray.ray = active.ray[a];
-            if constexpr (kMoves) ray.local = active.local[a];
+            if constexpr (kMotion) ray.local = active.local[a];
         }
 }
 
@@ -273,7 +276,7 @@ void test_waiting(BundleState& t) {
         const WaitingRay& waiting = t.scratch.waiting[i];
         if (waiting.depth > t.rays.depth[waiting.ray]) continue;
         const WideGrid& grid = t.tree.grid(waiting.grid);
-        const Block block = block_of(grid, waiting.segment, waiting.u, waiting.v, waiting.grid);
+        const SegmentBlock block = block_of(grid, waiting.segment, waiting.u, waiting.v, waiting.grid);
         count_block_tests(t, block, 1);
         if (t.rays.tests) count_tests_of(t, block, waiting.ray);
         bool found;
@@ -293,36 +296,38 @@ void test_waiting(BundleState& t) {
 /// Tests the active rays of a grid in a segment. `whole`: its box in camera space. Blocks that few rays may
 /// meet let them wait; the packets of tested rays then look less far, if the grid is opaque or layers have
 /// ended.
-template <bool kMoves, bool kLens>
+template <bool kMotion, bool kLens>
 void test_active(BundleState& t, const Candidate& candidate, const MovingBox& whole, const WideGrid& grid,
                  int segment) {
     const uint32_t index = candidate.grid;
     const ActiveRays& active = t.scratch.active;
     if (active.count == 0) return;
     const int boxes = grid.box_count(), blocks_u = grid.blocks_u(), per_box = grid.blocks_per_box();
-    uint32_t some = boxes == 1 ? meet_only_box(t) : meet_boxes<kMoves, kLens>(t, grid, segment, boxes);
+    uint32_t some = boxes == 1 ? meet_only_box(t) : meet_boxes<kMotion, kLens>(t, grid, segment, boxes);
     const float rounding = t.tree.rounding(absolute_max(whole));
     const size_t bytes = (active.count + kLanes - 1) / kLanes * kMaskBytes;
     bool tested = false;
     for (; some != 0; some &= some - 1) {
         const int box = std::countr_zero(some), last = std::min((box + 1) * per_box, grid.block_count());
+        // Blocks that share a box share its row of rays.
         const uint8_t* met = t.scratch.met + static_cast<size_t>(box) * kMetStride;
         const size_t candidates = count_bits(met, bytes);
         for (int b = box * per_box; b < last; ++b) {
             const int u = b % blocks_u, v = b / blocks_u;
-            const Block block = block_of(grid, segment, u, v, index);
+            const SegmentBlock block = block_of(grid, segment, u, v, index);
             if (candidates < kFewInBlock) {
-                let_wait<kMoves>(t,
-                                 {0, index, 0, candidate.depth, static_cast<uint16_t>(segment),
-                                  static_cast<uint8_t>(u), static_cast<uint8_t>(v)},
-                                 block, met);
+                let_wait<kMotion>(t,
+                                  {0, index, 0, candidate.depth, static_cast<uint16_t>(segment),
+                                   static_cast<uint8_t>(u), static_cast<uint8_t>(v)},
+                                  block, met);
                 continue;
             }
-            const size_t count = collect_block<kMoves, kLens>(t, block, met, candidates, rounding);
-            if (count != 0) test_block_rays<kMoves, kLens>(t, block, count);
+            const size_t count = collect_block<kMotion, kLens>(t, block, met, candidates, rounding);
+            if (count != 0) test_block_rays<kMotion, kLens>(t, block, count);
             tested = true;
         }
     }
+    // Rays that only wait have changed nothing; test_waiting() refreshes the packets of those.
     if (!tested || !(grid.opaque || t.layers_ended)) return;
     t.layers_ended = false;
     for (size_t i = 0; i < t.scratch.touched_count; ++i) t.refresh_packet(t.scratch.touched[i]);

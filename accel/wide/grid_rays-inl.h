@@ -33,7 +33,7 @@ HWY_INLINE MF in_segment(VF time, int key_count, int segment, VF& local) {
 
 /// Turns an interval of times of the shutter into one of times local to a segment, cut to [0, 1]; false where
 /// none is in the segment.
-HWY_INLINE MF to_segment(int key_count, int segment, Interval& time) {
+HWY_INLINE MF to_segment(int key_count, int segment, VectorInterval& time) {
     const F32 d;
     const VF scale = hn::Set(d, static_cast<float>(key_count - 1)),
              start = hn::Set(d, static_cast<float>(segment));
@@ -46,12 +46,12 @@ HWY_INLINE MF to_segment(int key_count, int segment, Interval& time) {
 
 /// Lanes of rays that pass through a grid's axis-aligned box no farther than their limits: a third of the
 /// work that the oriented box is, and of a packet that is wider than a grid most often no ray is left.
-template <bool kMoves, bool kLens>
+template <bool kMotion, bool kLens>
 HWY_INLINE MF in_aligned_box(const MovingBox& box, const RayLanes& r, VF limit) {
     const F32 d;
     const auto plane = [&](const float* at, const float* delta, int k) HWY_ATTR {
         const VF value = hn::Set(d, at[k]);
-        return kMoves ? hn::MulAdd(r.local, hn::Set(d, delta[k]), value) : value;
+        return kMotion ? hn::MulAdd(r.local, hn::Set(d, delta[k]), value) : value;
     };
     const VF z0 = plane(box.low, box.low_delta, 2), z1 = hn::Min(plane(box.high, box.high_delta, 2), limit);
     // Between the depths of entry and exit in z a ray spans an interval of x (y), which has to meet the
@@ -66,17 +66,17 @@ HWY_INLINE MF in_aligned_box(const MovingBox& box, const RayLanes& r, VF limit) 
 }
 
 /// Fetches the codes of a grid's boxes, which are needed once all packets of the bundle have been looked at.
-template <bool kMoves>
+template <bool kMotion>
 HWY_INLINE void prefetch_boxes(const BundleState& t, const WideGrid& grid, int segment) {
     constexpr size_t kLine = 64;
-    const size_t bytes = grid.key_bytes() * (kMoves ? 2 : 1);
+    const size_t bytes = grid.key_bytes() * (kMotion ? 2 : 1);
     const uint8_t* keys = GridKeys(grid, t.tree.keys_of(grid)).of_key(segment);
     for (size_t i = 0; i < bytes; i += kLine) __builtin_prefetch(keys + i);
     __builtin_prefetch(keys + bytes - 1);
 }
 
 /// Loads the rays of a packet; lanes that look in a segment, at times local to it (r.local).
-template <bool kMoves, bool kLens>
+template <bool kMotion, bool kLens>
 HWY_INLINE MF rays_in_segment(const BundleState& t, const WideGrid& grid, int segment, size_t packet,
                               RayLanes& r) {
     const F32 d;
@@ -84,8 +84,8 @@ HWY_INLINE MF rays_in_segment(const BundleState& t, const WideGrid& grid, int se
     r.ox = kLens ? hn::Load(d, t.rays.ox + i) : hn::Zero(d);
     r.oy = kLens ? hn::Load(d, t.rays.oy + i) : hn::Zero(d);
     r.ux = hn::Load(d, t.rays.ux + i), r.uy = hn::Load(d, t.rays.uy + i);
-    r.local = kMoves ? hn::Load(d, t.rays.time + i) : hn::Zero(d);
-    if constexpr (kMoves) {
+    r.local = kMotion ? hn::Load(d, t.rays.time + i) : hn::Zero(d);
+    if constexpr (kMotion) {
         if (grid.has_segments()) return in_segment(r.local, grid.key_count, segment, r.local);
     }
     return hn::FirstN(d, kLanes);
@@ -100,7 +100,7 @@ HWY_INLINE VF limit_of(const BundleState& t, const WideGrid& grid, size_t packet
 
 /// Keeps those of `count` met packets that have rays which meet the grid's axis-aligned box; how many.
 /// Without a branch: about every second packet has none, which cannot be predicted.
-template <bool kMoves, bool kLens>
+template <bool kMotion, bool kLens>
 HWY_INLINE size_t keep_aligned(BundleState& t, const WideGrid& grid, const MovingBox& box, int segment,
                                size_t count) {
     MetPackets& met = t.scratch.met_packets;
@@ -108,9 +108,9 @@ HWY_INLINE size_t keep_aligned(BundleState& t, const WideGrid& grid, const Movin
     for (size_t n = 0; n < count; ++n) {
         const uint32_t packet = met.packet[n];
         RayLanes r;
-        const MF looks = rays_in_segment<kMoves, kLens>(t, grid, segment, packet, r);
+        const MF looks = rays_in_segment<kMotion, kLens>(t, grid, segment, packet, r);
         const VF limit = limit_of(t, grid, packet);
-        met.lanes[kept] = mask_bits(hn::And(looks, in_aligned_box<kMoves, kLens>(box, r, limit)));
+        met.lanes[kept] = mask_bits(hn::And(looks, in_aligned_box<kMotion, kLens>(box, r, limit)));
         met.packet[kept] = packet;
         kept += met.lanes[kept] != 0;
     }
@@ -119,12 +119,12 @@ HWY_INLINE size_t keep_aligned(BundleState& t, const WideGrid& grid, const Movin
 
 /// Adds those rays of a packet to the active ones that meet the grid's oriented box; `lanes` meet the other.
 /// Keeps what the rays are in the grid's frame, for its boxes are in that frame, too.
-template <bool kMoves, bool kLens>
+template <bool kMotion, bool kLens>
 HWY_INLINE void collect_packet(BundleState& t, const WideGrid& grid, uint32_t packet, uint32_t lanes,
                                int segment, float depth) {
     const F32 d;
     RayLanes r;
-    rays_in_segment<kMoves, kLens>(t, grid, segment, packet, r);
+    rays_in_segment<kMotion, kLens>(t, grid, segment, packet, r);
     const VF limit = limit_of(t, grid, packet);
     const SegmentFrame& frame = t.scratch.frame;
     const MovingBox& framed = frame.box;
@@ -135,7 +135,7 @@ HWY_INLINE void collect_packet(BundleState& t, const WideGrid& grid, uint32_t pa
         inverse[k] = reciprocal(hn::MulAdd(x, r.ux, hn::MulAdd(y, r.uy, hn::Set(d, axis[2]))));
         offset[k] = kLens ? hn::Mul(hn::MulAdd(x, r.ox, hn::Mul(y, r.oy)), inverse[k]) : hn::Zero(d);
         VF low = hn::Set(d, framed.low[k]), high = hn::Set(d, framed.high[k]);
-        if constexpr (kMoves) {
+        if constexpr (kMotion) {
             low = hn::MulAdd(r.local, hn::Set(d, framed.low_delta[k]), low);
             high = hn::MulAdd(r.local, hn::Set(d, framed.high_delta[k]), high);
         }
@@ -150,7 +150,7 @@ HWY_INLINE void collect_packet(BundleState& t, const WideGrid& grid, uint32_t pa
     const CompactLanes compact(met);
     if constexpr (kLens) compact.store(r.ox, to.ox + at), compact.store(r.oy, to.oy + at);
     compact.store(r.ux, to.ux + at), compact.store(r.uy, to.uy + at);
-    if constexpr (kMoves) compact.store(r.local, to.local + at);
+    if constexpr (kMotion) compact.store(r.local, to.local + at);
     for (int k = 0; k < 3; ++k) {
         compact.store(inverse[k], to.inverse[k] + at);
         if constexpr (kLens) compact.store(offset[k], to.offset[k] + at);
@@ -164,7 +164,7 @@ HWY_INLINE void collect_packet(BundleState& t, const WideGrid& grid, uint32_t pa
 
 /// Lists the active rays of a grid in a segment, from the packets of the candidate's groups. `box`: the
 /// grid's in camera space during the segment.
-template <bool kMoves, bool kLens>
+template <bool kMotion, bool kLens>
 void collect_active(BundleState& t, const MovingBox& box, const WideGrid& grid, int segment,
                     const Candidate& candidate) {
     const F32 d;
@@ -174,16 +174,16 @@ void collect_active(BundleState& t, const MovingBox& box, const WideGrid& grid, 
     MetPackets& packets = t.scratch.met_packets;
     size_t count = 0;
     t.for_packets(candidate.groups, [&](size_t p) HWY_ATTR {
-        auto q = IntervalLanes::of<kMoves, kLens>(
+        auto q = IntervalLanes::of<kMotion, kLens>(
             [&](int row) HWY_ATTR { return hn::Load(d, t.scratch.intervals.row[row] + p); });
         VF low[3], high[3];
         MF looks = hn::FirstN(d, kLanes);
-        if constexpr (kMoves) {
+        if constexpr (kMotion) {
             if (grid.has_segments()) looks = to_segment(grid.key_count, segment, q.time);
         }
         for (int k = 0; k < 3; ++k) {
             low[k] = hn::Set(d, box.low[k]), high[k] = hn::Set(d, box.high[k]);
-            if constexpr (kMoves) {
+            if constexpr (kMotion) {
                 low[k] = lowest(low[k], hn::Set(d, box.low_delta[k]), q.time);
                 high[k] = highest(high[k], hn::Set(d, box.high_delta[k]), q.time);
             }
@@ -198,15 +198,16 @@ void collect_active(BundleState& t, const MovingBox& box, const WideGrid& grid, 
     t.stats.nodes_visited += count * kLanes;
     if (t.rays.nodes)
         for (size_t n = 0; n < count; ++n) count_packet(t.rays.nodes, packets.packet[n] * kLanes, 1);
-    count = keep_aligned<kMoves, kLens>(t, grid, box, segment, count);
+    count = keep_aligned<kMotion, kLens>(t, grid, box, segment, count);
     if (count == 0) return;
-    if constexpr (kMoves)
+    if constexpr (kMotion)
         read_moving_frame(t.tree, grid, segment, t.scratch.frame);
     else
         t.tree.read_frame(grid, segment, t.scratch.frame);
-    prefetch_boxes<kMoves>(t, grid, segment);
+    prefetch_boxes<kMotion>(t, grid, segment);
     for (size_t n = 0; n < count; ++n)
-        collect_packet<kMoves, kLens>(t, grid, packets.packet[n], packets.lanes[n], segment, candidate.depth);
+        collect_packet<kMotion, kLens>(t, grid, packets.packet[n], packets.lanes[n], segment,
+                                       candidate.depth);
 }
 
 }  // namespace HWY_NAMESPACE

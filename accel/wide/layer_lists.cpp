@@ -43,6 +43,7 @@ void LayerLists::link_all() {
     }
 }
 
+/// Nodes that cuts have freed are used before new ones.
 LayerLists::Ended LayerLists::add_to_list(uint32_t ray, const BundleLayer& layer) {
     List& list = lists_[ray];
     if (list.has_end && !layer.in_front(list.end)) return Ended::None;
@@ -73,6 +74,7 @@ void LayerLists::cut(List& list, size_t most) {
     const auto last = order_.begin() + static_cast<std::ptrdiff_t>(most - 1);
     std::nth_element(order_.begin(), last, order_.end(),
                      [this](uint32_t a, uint32_t b) { return nodes_[a].layer.in_front(nodes_[b].layer); });
+    // The nearest are linked anew; the nodes of all others become free, and for_each() passes them over.
     list.end = nodes_[*last].layer;
     list.has_end = true;
     list.first = kNone;
@@ -90,6 +92,7 @@ void LayerLists::cut(List& list, size_t most) {
 void LayerLists::cut_all() {
     const auto lists = static_cast<size_t>(
         std::count_if(lists_.begin(), lists_.end(), [](const List& list) { return list.count > 0; }));
+    // At least one list has layers, since the room is full.
     const size_t most = std::min<size_t>(bounds_.most, std::max<size_t>(1, room_ / 2 / lists));
     for (List& list : lists_)
         if (list.count > most) cut(list, most);

@@ -67,6 +67,7 @@ class LayerLists {
         uint32_t ray;   ///< kNone: this is free
         uint32_t next;  ///< in the list, or of those that are free
     };
+    /// The layers of a ray, in no order. Once it has an end, what lies behind is no longer taken in.
     struct List {
         uint32_t first = kNone, count = 0;
         bool has_end = false;

@@ -16,6 +16,7 @@ namespace trapeze {
 namespace {
 
 using testing::add_torus;
+using testing::for_each_target;
 using testing::GridMaker;
 using testing::Noise;
 

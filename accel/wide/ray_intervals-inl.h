@@ -20,14 +20,14 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Lanes of intervals, both ends included.
-struct Interval {
+struct VectorInterval {
     hn::Vec<hn::ScalableTag<float>> low, high;
 };
 
 /// What a bundle's or packets' rays hold, as intervals. Made from lanes value(row) of the RayIntervals::Row
 /// named.
 struct IntervalLanes {
-    Interval dx, dy, ox, oy, time;
+    VectorInterval dx, dy, ox, oy, time;
 
     template <bool kMotion, bool kLens, class Value>
     static HWY_INLINE IntervalLanes of(const Value& value) {
@@ -46,17 +46,17 @@ struct IntervalLanes {
 /// What a plane of a moving box spans during an interval of time, the low one downwards, the high one
 /// upwards: it moves linearly, so that the ends of the interval are enough.
 template <class V>
-HWY_INLINE V lowest(V low, V delta, const Interval& time) {
+HWY_INLINE V lowest(V low, V delta, const VectorInterval& time) {
     return hn::Min(hn::MulAdd(time.low, delta, low), hn::MulAdd(time.high, delta, low));
 }
 template <class V>
-HWY_INLINE V highest(V high, V delta, const Interval& time) {
+HWY_INLINE V highest(V high, V delta, const VectorInterval& time) {
     return hn::Max(hn::MulAdd(time.low, delta, high), hn::MulAdd(time.high, delta, high));
 }
 
 /// The interval of an interval's products with a number of either sign.
 template <class V>
-HWY_INLINE Interval times(const Interval& i, V factor) {
+HWY_INLINE VectorInterval times(const VectorInterval& i, V factor) {
     const V a = hn::Mul(i.low, factor), b = hn::Mul(i.high, factor);
     return {hn::Min(a, b), hn::Max(a, b)};
 }
@@ -65,11 +65,11 @@ HWY_INLINE Interval times(const Interval& i, V factor) {
 /// at these. A ray is linear in depth, so that what rays span on the way lies between what they span at its
 /// ends.
 template <bool kLens, class D, class V>
-HWY_INLINE hn::Mask<D> passes(D, const Interval& d, const Interval& o, V z0, V z1, V k0, V k1, V low,
-                              V high) {
-    Interval from = times(d, z0), to = times(d, z1);
+HWY_INLINE hn::Mask<D> passes(D, const VectorInterval& d, const VectorInterval& o, V z0, V z1, V k0, V k1,
+                              V low, V high) {
+    VectorInterval from = times(d, z0), to = times(d, z1);
     if constexpr (kLens) {
-        const Interval from_lens = times(o, k0), to_lens = times(o, k1);
+        const VectorInterval from_lens = times(o, k0), to_lens = times(o, k1);
         from = {hn::Add(from.low, from_lens.low), hn::Add(from.high, from_lens.high)};
         to = {hn::Add(to.low, to_lens.low), hn::Add(to.high, to_lens.high)};
     }

@@ -56,8 +56,8 @@ struct NodeSlabs {
         }
     }
 
-    /// Cuts with the boxes of children from number `first` on, grown by `pad`; at a time, if kMoves.
-    template <bool kMoves>
+    /// Cuts with the boxes of children from number `first` on, grown by `pad`; at a time, if kMotion.
+    template <bool kMotion>
     HWY_INLINE void cut(const WideTree& tree, uint32_t index, size_t first, float time, float pad,
                         Inside& inside) const {
         const F32 d;
@@ -66,7 +66,7 @@ struct NodeSlabs {
 #pragma GCC unroll 3
         for (size_t k = 0; k < 3; ++k) {
             VF in = hn::Load(d, node.row(in_row[k]) + first), out = hn::Load(d, node.row(out_row[k]) + first);
-            if constexpr (kMoves) {
+            if constexpr (kMotion) {
                 const WideNodeMotion& motion = tree.node_motions()[index];
                 in = hn::MulAdd(hn::Set(d, time), from_bfloat16(d, motion.row(in_row[k]) + first), in);
                 out = hn::MulAdd(hn::Set(d, time), from_bfloat16(d, motion.row(out_row[k]) + first), out);
@@ -83,7 +83,7 @@ struct NodeSlabs {
 /// A ray against the boxes of a grid at the ray's time, in the grid's frame. It comes into those of code c,
 /// of axis k, at depth step[0][k] * c - enter[k], and goes out at step[0][k] * c - leave[k]; where the grid
 /// moves, + step[1][k] times the code at the segment's end.
-template <bool kMoves>
+template <bool kMotion>
 class GridSlabs {
   public:
     HWY_INLINE GridSlabs(const WideTree& tree, const WideGrid& grid, MotionSegment segment,
@@ -92,11 +92,11 @@ class GridSlabs {
         const uint8_t* bytes = tree.keys_of(grid);
         const GridKeys keys(grid, bytes);
         codes_[0] = keys.box_codes(segment.index);
-        if constexpr (kMoves) codes_[1] = codes_[0] + grid.key_bytes();
+        if constexpr (kMotion) codes_[1] = codes_[0] + grid.key_bytes();
 #if HWY_TARGET == HWY_SCALAR
         const FrameAxes axes = grid.axes.unpacked();
         const KeyBounds from = keys.framed(segment.index),
-                        to = kMoves ? keys.framed(segment.index + 1) : from;
+                        to = kMotion ? keys.framed(segment.index + 1) : from;
         for (int k = 0; k < 3; ++k) {
             const float* a = axes.axis[k];
             const float direction = a[0] * ray.direction.x + a[1] * ray.direction.y + a[2] * ray.direction.z;
@@ -127,7 +127,7 @@ class GridSlabs {
         auto low = hn::BitCast(d, hn::LoadU(d8, bytes)),
              size = hn::Sub(hn::BitCast(d, hn::LoadU(d8, bytes + sizeof(float[3]))), low);
         const auto part = hn::Set(d, 1.0f / 255);
-        if constexpr (kMoves) {
+        if constexpr (kMotion) {
             const uint8_t *begin = keys.of_key(segment.index), *end = begin + grid.key_bytes();
             const auto step = hn::Mul(size, part), local = hn::Set(d, segment.local);
             const auto low0 = decode_planes(low, step, begin), low1 = decode_planes(low, step, end);
@@ -179,6 +179,8 @@ class GridSlabs {
         // Every third code becomes the upper half of a lane.
         alignas(16) static constexpr uint8_t kEveryThird[16] = {128, 128, 0,  1,  128, 128, 6,   7,
                                                                 128, 128, 12, 13, 128, 128, 128, 128};
+        // Sixteen bytes are loaded from one of the first three codes on: they may reach beyond the axes, not
+        // beyond the record.
         static_assert(offsetof(WideGrid, axes) + sizeof(int16_t[2]) + 16 <= sizeof(WideGrid));
         const hn::FixedTag<uint8_t, 16> d8;
         const hn::FixedTag<int32_t, 4> d32;
@@ -197,7 +199,7 @@ class GridSlabs {
         const VF step = lanes_of<kAxis>(step_[0]);
         in = hn::MulSub(codes(0, in_row), step, lanes_of<kAxis>(enter_));
         out = hn::MulSub(codes(0, out_row), step, lanes_of<kAxis>(leave_));
-        if constexpr (!kMoves) return;
+        if constexpr (!kMotion) return;
         const VF end_step = lanes_of<kAxis>(step_[1]);
         in = hn::MulAdd(codes(1, in_row), end_step, in);
         out = hn::MulAdd(codes(1, out_row), end_step, out);

@@ -130,7 +130,8 @@ inline bool add_layers(BundleState& t, size_t first, MF hit, VF depth, uint32_t 
 
 /// Tests a packet against the micropolygons of a block that it may hit; whether one of its rays looks less
 /// far now.
-inline bool test_packet(BundleState& t, const Block& block, size_t packet, const PacketSlopes& slopes) {
+inline bool test_packet(BundleState& t, const SegmentBlock& block, size_t packet,
+                        const PacketSlopes& slopes) {
     const F32 d;
     const hn::RebindToUnsigned<F32> du;
     const size_t i = packet * kLanes, rays = std::min(kLanes, t.rays.count - i);

@@ -36,6 +36,7 @@ namespace {
 
 HWY_EXPORT(trace_sharp);
 
+using testing::for_each_target;
 using testing::GridMaker;
 using testing::Noise;
 

@@ -58,6 +58,7 @@ template <bool kDepths, size_t kRoom>
 class AheadStack {
   public:
     size_t size() const { return size_; }
+    /// For all children of one more node.
     bool has_room() const { return size_ + WideNode::kChildren <= kRoom; }
     uint32_t link() const { return links_[size_ - 1]; }
     float depth() const { return depths_[size_ - 1]; }
@@ -69,7 +70,8 @@ class AheadStack {
         if constexpr (kDepths) compact.store(depths, depths_ + size_);
         size_ += static_cast<size_t>(std::popcount(mask_bits(F32(), some)));
     }
-    /// Puts what has been pushed since the size was `from` in order, the nearest last.
+    /// Puts what has been pushed since the size was `from` in order, the nearest last. By insertion: there
+    /// are 16 at most.
     HWY_INLINE void sort(size_t from) {
         for (size_t i = from + 1; i < size_; ++i) {
             const float depth = depths_[i];
@@ -88,8 +90,8 @@ class AheadStack {
     alignas(64) uint32_t links_[kRoom + kLanes];
 };
 
-/// A ray on its way. kMoves: something in the tree moves.
-template <bool kMoves, class Policy, class Counts>
+/// A ray on its way. kMotion: something in the tree moves.
+template <bool kMotion, class Policy, class Counts>
 class SingleRay {
   public:
     SingleRay(const Query& query, Policy& policy, Counts counts)
@@ -98,6 +100,7 @@ class SingleRay {
         for (int k = 0; k < 3; ++k) block_ray_.planes[k] = ray_.planes[k];
     }
 
+    /// What has no bounds comes first: a hit there shortens the way through the tree.
     void run() {
         for (const uint32_t index : tree_.unbounded_grids()) {
             const WideGrid& grid = tree_.grid(index);
@@ -160,7 +163,7 @@ class SingleRay {
         uint32_t last = kNoLink;
         for (size_t i = 0; i < WideNode::kChildren; i += kLanes) {
             Inside inside(ray_.t_min - slack, ray_.t_max + slack);
-            slabs_.cut<kMoves>(tree_, index, i, ray_.axis.time, pad, inside);
+            slabs_.cut<kMotion>(tree_, index, i, ray_.axis.time, pad, inside);
             const VU links = hn::Load(du, node.child + i);
             const MF there = hn::RebindMask(d, hn::Ne(links, hn::Set(du, kNoLink)));
             const MF met = hn::AndNot(inside.missed(), there);
@@ -180,7 +183,7 @@ class SingleRay {
 
     HWY_INLINE void visit_grid(uint32_t index) {
         const WideGrid& grid = tree_.grid(index);
-        if (kMoves && grid.moves())
+        if (kMotion && grid.moves())
             visit_boxes<true>(index, grid);
         else
             visit_boxes<false>(index, grid);
@@ -224,17 +227,19 @@ class SingleRay {
     }
 
     HWY_INLINE void visit_block(uint32_t index, const WideGrid& grid, int segment, int number) {
-        if (kMoves && grid.moves())
+        if (kMotion && grid.moves())
             visit_block<true>(index, grid, segment, number);
         else
             visit_block<false>(index, grid, segment, number);
     }
 
+    /// Block `number` of a grid, counted row by row of blocks: its micropolygons, as many at once as there
+    /// are lanes.
     template <bool kGridMoves>
     HWY_INLINE void visit_block(uint32_t index, const WideGrid& grid, int segment, int number) {
         const F32 d;
         const int blocks_u = grid.blocks_u(), v = number * kSixtyFourths[blocks_u] >> 6;
-        const Block block = block_of(grid, segment, number - v * blocks_u, v, index);
+        const SegmentBlock block = block_of(grid, segment, number - v * blocks_u, v, index);
         counts_.block(block.view.rows * block.columns);
         const Facing facing = facing_along(block.facing, ray_.sign);
         for (int m = 0; m < 4 * block.view.rows; m += static_cast<int>(kLanes)) {
@@ -248,6 +253,7 @@ class SingleRay {
                 const int lane = std::countr_zero(hits), micropolygon = m + lane;
                 const float depth = ray_.depth_of(depths[lane]);
                 if (!(depth >= ray_.t_min && depth <= ray_.t_max)) continue;
+                // u and v within the block, four bits each as in MicropolygonId::packed().
                 const auto uv = static_cast<uint32_t>((micropolygon & 3) | micropolygon >> 2 << 4);
                 policy_.consider({depth, block.id + uv}, block.opaque, ray_);
             }

@@ -16,6 +16,7 @@
 namespace trapeze {
 namespace {
 
+using testing::for_each_target;
 using testing::GridMaker;
 using testing::Noise;
 using testing::ScalarRay;

@@ -20,6 +20,7 @@ namespace trapeze {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// Vectors as wide as the target has them, which the -inl.h files of accel/wide share.
 using F32 = hn::ScalableTag<float>;
 using I32 = hn::RebindToSigned<F32>;
 using VF = hn::Vec<F32>;

@@ -122,6 +122,8 @@ HWY_AFTER_NAMESPACE();
 namespace trapeze {
 namespace {
 
+using testing::for_each_target;
+
 HWY_EXPORT(wrong_corners);
 HWY_EXPORT(wrong_lanes);
 

@@ -21,6 +21,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 class BlockParts {
   public:
 #if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+    // Sixteen lanes are all of a block: `first` is 0 whenever this is made.
     static constexpr size_t kParts = 2;  ///< the tile, and what lies behind it
     BlockParts(const BlockView& block, int) : lookup_(block) {}
     HWY_INLINE void load(int plane, VF* parts) const {
@@ -49,6 +50,7 @@ class BlockParts {
     const BlockView& block_;
     int first_;
 #else
+    // Four or eight lanes are one or two rows of a block, from row first / 4 on.
     static constexpr size_t kParts =
         4;  ///< rows, what is right of them, the next rows, what is right of those
     BlockParts(const BlockView& block, int first) : block_(block), first_(first) {}
@@ -61,12 +63,15 @@ class BlockParts {
         parts[3] = next_rows(tile + block_.right);
     }
     HWY_INLINE VF corner(int corner, const VF* parts) const {
-        // A row of four without its first, and the first of what is right of it.
+        // A row of four without its first, and the first of what is right of it. The shift is within each 128
+        // bits, which are a row.
         return corner & 1 ? hn::CombineShiftRightBytes<4>(F32(), parts[corner], parts[corner - 1])
                           : parts[corner];
     }
 
   private:
+    /// The vertices one row further on: in the same tile, but for its last row, which the first of the tile
+    /// below follows.
     HWY_INLINE VF next_rows(const float* tile) const {
         const F32 d;
         static_assert(hn::MaxLanes(d) == 4 || hn::MaxLanes(d) == 8);
@@ -93,15 +98,17 @@ struct BlockRay {
 
 /// Which of the block's micropolygons from number `first` on the ray hits, a bit each, and the predicate's
 /// depths of those; at most as many as there are lanes.
-template <bool kMoves>
+template <bool kMotion>
 HWY_INLINE uint32_t hit_micropolygons(const BlockView& block, int columns, Facing facing, int first,
                                       const BlockRay& ray, VF& depth) {
     constexpr size_t kParts = BlockParts::kParts;
     const F32 d;
     const BlockParts lookup(block, first);
+    // A coordinate of the turned axes. Vertices are moved in time before corners are taken of them: each is
+    // moved once, and not for each of its micropolygons.
     const auto load = [&](int k, VF* parts) HWY_ATTR {
         lookup.load(ray.planes[k], parts);
-        if constexpr (kMoves) {
+        if constexpr (kMotion) {
             VF delta[kParts];
             lookup.load(3 + ray.planes[k], delta);
 #pragma GCC unroll 4

@@ -48,6 +48,7 @@ struct TiledCoordinates {
 HWY_INLINE void place_vertices(const Grid& grid, int key, const float (*axis)[3], TiledCoordinates& out,
                                KeyBox6& box) {
     const hn::ScalableTag<float> d;
+    // Planes hold where segments start and how far they go: the last key is the end of the last segment.
     const bool at_end = grid.moves() && key == grid.key_count - 1;
     const int segment = at_end ? key - 1 : key;
     const size_t count = grid.shape.plane_size(), lanes = hn::Lanes(d);
@@ -98,6 +99,8 @@ HWY_INLINE void bound_blocks(const GridShape& shape, const TiledCoordinates& at,
         for (int v = 0; v < blocks_v; ++v)
             for (int u = 0; u < blocks_u; ++u) {
                 const int tile = v * tiles_u + u;
+                // Where no tile follows, the tile's own first row or column counts again, which changes no
+                // bound.
                 const int right = u + 1 < tiles_u ? tile + 1 : tile;
                 const int down = v + 1 < tiles_v ? tile + tiles_u : tile;
                 const int corner = down + (right - tile);

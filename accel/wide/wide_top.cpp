@@ -84,6 +84,7 @@ class TopBuilder {
         for (const uint32_t grid : grids) {
             const EndBoxes& e = extents[grid].box;
             Item item{{}, grid};
+            // At mid-shutter, since boxes are linear from open to close.
             for (int k = 0; k < 3; ++k) {
                 item.box.low[k] = 0.5f * (e.at[0].low[k] + e.at[1].low[k]);
                 item.box.high[k] = 0.5f * (e.at[0].high[k] + e.at[1].high[k]);

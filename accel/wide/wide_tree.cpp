@@ -33,6 +33,7 @@ WideTree::WideTree(const Grids& grids, const RayReach& reach)
     bounded.reserve(extents.size());
     for (uint32_t i = 0; i < extents.size(); ++i) {
         if (!std::isfinite(extents[i].absolute_max)) {
+            // These are in no node: every ray is tested against them.
             unbounded_.push_back(i);
             continue;
         }
@@ -54,6 +55,8 @@ WideTree::WideTree(const Grids& grids, const RayReach& reach)
 void WideTree::bound_grids(std::vector<GridExtent>& extents) {
     const size_t count = grids_.grids.size();
     wide_grids_.allocate(count);
+    // Pairs of bytes, so that 32 bits reach 8 GB. Sizes follow from shapes and numbers of keys: each grid's
+    // place is known before any is bounded.
     size_t pairs = 0;
     for (size_t i = 0; i < count; ++i) {
         const Grid& grid = grids_.grids[i];
@@ -108,6 +111,7 @@ void WideTree::write_nodes(const std::vector<WideChildren>& wide) {
                 node.low[k][i] = used ? box.low[k] : kNowhere;
                 node.high[k][i] = used ? box.high[k] : -kNowhere;
                 if (!moves_) continue;
+                // Rounded outwards: boxes at close may be larger than they were, never smaller.
                 node_motions_[n].low[k][i] = bfloat16_below(box.low_delta[k]);
                 node_motions_[n].high[k][i] = bfloat16_above(box.high_delta[k]);
             }
@@ -127,6 +131,7 @@ void WideTree::find_largest() {
                 largest.extent[k] = std::max(largest.extent[k],
                                              grid ? grid->largest_extent(k) : node_largest_[link].extent[k]);
                 float low = nodes_[n].low[k][i], high = nodes_[n].high[k][i];
+                // At open and at close: planes are linear between, and no farther out.
                 largest.coordinate = std::max({largest.coordinate, std::abs(low), std::abs(high)});
                 if (!moves_) continue;
                 low += from_bfloat16(node_motions_[n].low[k][i]);

@@ -29,7 +29,7 @@ void add_sums(const TileSums& sums, Sum sum, const PixelRect& pixels, const Firs
 /// Develops the pixels of a tile that no other tile's samples reach: they need not wait.
 void Film::develop_inner(int tile, const TileSums& sums) {
     const PixelRect inner = tiles_.inner_pixels(tile);
-    if (inner.empty() || tiles_[tile].settled.load(std::memory_order_relaxed)) return;
+    if (inner.empty() || tiles_[tile].finished.load(std::memory_order_relaxed)) return;
     develop(inner, [&sums](const auto& visit) { visit(sums); });
     tiles_[tile].has_inner.store(true, std::memory_order_release);
 }
@@ -116,9 +116,9 @@ void Film::rank_mattes(int tile, const PixelRect& pixels) {
 }
 
 /// Finishes a tile once all that its pixels wait for is there.
-void Film::settle(int tile) {
+void Film::finish_tile(int tile) {
     develop_rest(tile);
-    tiles_[tile].settled.store(true, std::memory_order_release);
+    tiles_[tile].finished.store(true, std::memory_order_release);
     tiles_.for_each_neighbour(tile, [&](int from) {
         if (tiles_.reaches(from, tile)) release(from);
     });

@@ -138,7 +138,7 @@ void Film::add_tile(int index, const PixelRect& pixels, const SumsOf& sums_of) {
     tiles_.for_each_neighbour(index, [&](int to) {
         if (!tiles_.reaches(index, to)) return;
         // Acquire and release: whoever takes the last one sees the sums of all.
-        if (tiles_[to].missing.fetch_sub(1, std::memory_order_acq_rel) == 1) settle(to);
+        if (tiles_[to].missing.fetch_sub(1, std::memory_order_acq_rel) == 1) finish_tile(to);
     });
 }
 
@@ -263,7 +263,7 @@ void Film::accumulate_layers(const FilmPart& part, TileSums& sums) {
 /// Whether a pixel is kept, and not one that an earlier run has finished.
 bool Film::takes_pixel(int px, int py) const {
     return image_.window.contains(px, py) &&
-           !tiles_[tiles_.of_pixel(px, py)].settled.load(std::memory_order_relaxed);
+           !tiles_[tiles_.of_pixel(px, py)].finished.load(std::memory_order_relaxed);
 }
 
 /// Exposure's gain is a picture's, too, but not its gamma: deep samples add up.

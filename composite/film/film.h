@@ -106,7 +106,7 @@ class Film final : public SampleSink {
     /// Adds what the layers of samples make: mattes and deep pixels.
     void accumulate_layers(const FilmPart& part, TileSums& sums);
     void rank_mattes(int tile, const PixelRect& pixels);
-    void settle(int tile);
+    void finish_tile(int tile);
     void develop_inner(int tile, const TileSums& sums);
     void develop_rest(int tile);
     template <class ForSums>

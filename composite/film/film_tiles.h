@@ -25,7 +25,7 @@ class FilmTiles {
         /// inner_pixels() are developed, and never written again but by mattes and deep samples.
         std::atomic<bool> has_inner{false};
         /// The pixels are finished, and never written again; whoever reads this (acquire) may read them.
-        std::atomic<bool> settled{false};
+        std::atomic<bool> finished{false};
     };
 
     FilmTiles() = default;

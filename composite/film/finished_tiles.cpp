@@ -74,12 +74,12 @@ FinishedTilesHeader Film::finished_tiles_header() const {
 std::vector<int> Film::finished_tiles() const {
     std::vector<int> finished;
     for (int tile = 0; tile < tiles_.count(); ++tile)
-        if (tiles_[tile].settled.load(std::memory_order_acquire)) finished.push_back(tile);
+        if (tiles_[tile].finished.load(std::memory_order_acquire)) finished.push_back(tile);
     return finished;
 }
 
 PixelRect Film::finished_pixels(int tile) const {
-    if (tiles_[tile].settled.load(std::memory_order_acquire)) return tiles_.kept_pixels(tile);
+    if (tiles_[tile].finished.load(std::memory_order_acquire)) return tiles_.kept_pixels(tile);
     return tiles_[tile].has_inner.load(std::memory_order_acquire) ? tiles_.inner_pixels(tile) : PixelRect{};
 }
 
@@ -116,7 +116,7 @@ bool Film::read_finished(const ReadBytes& read) {
         int32_t tile = 0;
         if (!read(&tile, sizeof tile) || tile < 0 || tile >= tiles_.count()) return false;
         const PixelRect pixels = tiles_.kept_pixels(tile);
-        if (pixels.empty() || tiles_[tile].settled.exchange(true)) return false;
+        if (pixels.empty() || tiles_[tile].finished.exchange(true)) return false;
         const auto read_values = [&](auto* values, size_t count) {
             return read(values, count * sizeof *values);
         };

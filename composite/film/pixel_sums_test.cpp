@@ -11,6 +11,8 @@
 namespace trapeze {
 namespace {
 
+using testing::for_each_target;
+
 /// A pixel's samples at random places, with random colours.
 struct Pixel {
     int x = 7, y = -3, count;

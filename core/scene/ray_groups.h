@@ -20,6 +20,7 @@ struct RaySubset {
     /// Of "a,b" or "-a".
     explicit RaySubset(std::string_view names = {});
     bool has(const std::vector<std::string>& groups) const;
+    bool names_none() const { return in.empty() && out.empty(); }
 };
 
 }  // namespace trapeze

@@ -8,6 +8,8 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "core/math.h"
 #include "core/scene/ray_groups.h"
@@ -26,6 +28,12 @@ struct RayFilter {
     enum class Sides : uint8_t { OfAttributes, Front, Back, Both };
     Sides sides = Sides::OfAttributes;
     RaySubset subset;
+    RaySubset excluded;  ///< does not count, unless it names nothing
+
+    /// Whether primitives that are in these groups count.
+    bool admits(const std::vector<std::string>& groups) const {
+        return subset.has(groups) && (excluded.names_none() || !excluded.has(groups));
+    }
 };
 
 /// Of the geometry that rays meet: Option "trace" "levels".

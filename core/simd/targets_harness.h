@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
-namespace trapeze {
+namespace trapeze::testing {
 
 /// Runs the body once for each target that this machine has and that kernels were compiled for, it alone
 /// chosen; afterwards all may be chosen again.
@@ -23,4 +23,4 @@ void for_each_target(const Body& body) {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
-}  // namespace trapeze
+}  // namespace trapeze::testing

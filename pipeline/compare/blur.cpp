@@ -7,7 +7,7 @@ namespace {
 
 /// The blur of one micropolygon, in pixels.
 struct Blur {
-    float defocus = 0, motion = 0;
+    float motion = 0, defocus = 0;
 };
 
 /// The time of a key, 0 to 1 over the shutter.

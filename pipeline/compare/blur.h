@@ -15,8 +15,8 @@ struct BlurSize {
 
 /// Both kinds of a frame's blur.
 struct FrameBlur {
-    BlurSize defocus;  ///< diameter of the circle of confusion
     BlurSize motion;   ///< length of the way in raster space while the shutter is open
+    BlurSize defocus;  ///< diameter of the circle of confusion
 };
 
 /// Measures blur at a few vertices of each grid. What is nearer than the near clipping plane does not count.

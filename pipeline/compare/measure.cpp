@@ -11,8 +11,8 @@
 
 #include "pipeline/compare/occlusion_rays.h"
 #include "pipeline/compare/sample_groups.h"
-#include "pipeline/frame/resolve_tiles.h"
-#include "pipeline/frame/stopwatch.h"
+#include "pipeline/frame/cost/stopwatch.h"
+#include "pipeline/frame/tiles/resolve_tiles.h"
 
 namespace trapeze {
 namespace {

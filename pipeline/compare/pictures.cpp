@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "pipeline/frame/progress.h"
-#include "pipeline/frame/regions.h"
+#include "pipeline/frame/cost/progress.h"
+#include "pipeline/frame/tiles/tile_order.h"
 
 namespace trapeze {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "composite/image.h"
 #include "pipeline/compare/shared_frame.h"
-#include "pipeline/frame/resolve_tiles.h"
+#include "pipeline/frame/tiles/resolve_tiles.h"
 #include "sample/visibility.h"
 
 namespace trapeze {

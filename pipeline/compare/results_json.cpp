@@ -35,6 +35,8 @@ nlohmann::ordered_json to_json(const MethodResult& r) {
                                    {"tree_references", r.build.tree_references},
                                    {"tree_duplicates", r.build.tree_duplicates},
                                    {"tree_splits", r.build.tree_splits},
+                                   {"tree_guests", r.build.tree_guests},
+                                   {"tree_incoherent", r.build.tree_incoherent},
                                    {"tree_sah_cost", r.build.tree_sah_cost},
                                    {"build_prepare_seconds", r.build.phases.prepare},
                                    {"build_divide_seconds", r.build.phases.divide},

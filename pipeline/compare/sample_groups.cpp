@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "pipeline/frame/regions.h"
+#include "pipeline/frame/tiles/tile_order.h"
 
 namespace trapeze {
 namespace {

@@ -3,7 +3,9 @@
 #include <tbb/task_arena.h>
 
 #include "core/scene/adaptive_sampling.h"
-#include "pipeline/frame/frame_recorder.h"
+#include "pipeline/frame/cost/frame_recorder.h"
+#include "pipeline/frame/frame_memory.h"
+#include "pipeline/frame/make_context.h"
 #include "pipeline/frame/make_grids.h"
 #include "pipeline/rays/light_meshes.h"
 #include "pipeline/rays/ray_world.h"

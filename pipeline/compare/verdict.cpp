@@ -106,7 +106,7 @@ Standing standing_at(const Comparison& c, SampleRate rate) {
 }
 
 std::string blur_sentence(const Comparison& c) {
-    const auto& [defocus, motion] = c.blur;
+    const auto& [motion, defocus] = c.blur;
     std::string text = fmt::format("The frame has {} micropolygons. ",
                                    count_text(static_cast<double>(c.frame.tessellate.micropolygons)));
     const auto size = [](const char* what, const BlurSize& blur) {

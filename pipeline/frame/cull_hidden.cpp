@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "pipeline/frame/collect_grids.h"
+#include "pipeline/frame/tiles/tile_order.h"
 #include "sample/hit_lists.h"
 
 namespace trapeze {

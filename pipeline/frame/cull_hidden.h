@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/scene/render_context.h"
-#include "pipeline/frame/frame_stats.h"
-#include "pipeline/frame/layer_passes.h"
+#include "pipeline/frame/cost/frame_stats.h"
 #include "pipeline/frame/regions.h"
+#include "pipeline/frame/tiles/layer_passes.h"
 #include "sample/visibility.h"
 #include "shade/shading.h"
 #include "tessellate/tessellate.h"

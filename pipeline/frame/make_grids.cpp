@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "pipeline/frame/collect_grids.h"
-#include "pipeline/frame/stopwatch.h"
+#include "pipeline/frame/cost/stopwatch.h"
 #include "shade/materials/grid_parts.h"
 
 namespace trapeze {

@@ -3,8 +3,8 @@
 
 #include "core/grid.h"
 #include "core/scene/render_context.h"
-#include "pipeline/frame/frame_stats.h"
-#include "pipeline/frame/progress.h"
+#include "pipeline/frame/cost/frame_stats.h"
+#include "pipeline/frame/cost/progress.h"
 #include "pipeline/frame/regions.h"
 #include "shade/shading.h"
 #include "tessellate/tessellate.h"

@@ -4,15 +4,10 @@
 #include <numeric>
 
 #include "core/samples.h"
+#include "pipeline/frame/tiles/tile_order.h"
 
 namespace trapeze {
 namespace {
-
-/// The next multiple of `side` at or below a pixel, which may be negative.
-int floor_to(int pixel, int side) {
-    const int rest = ((pixel % side) + side) % side;
-    return pixel - rest;
-}
 
 /// The part of a region in a rectangle: the subpatches that it may see, and the memory for these.
 Region part_of(const Region& whole, const PixelRect& pixels, std::span<const SubpatchInfo> subpatches,
@@ -32,7 +27,7 @@ std::pair<PixelRect, PixelRect> halves(const PixelRect& r) {
     PixelRect low = r, high = r;
     const bool across = r.width() >= r.height();
     const int middle =
-        across ? floor_to(r.x0 + r.width() / 2, kTileSide) : floor_to(r.y0 + r.height() / 2, kTileSide);
+        across ? tile_begin(r.x0 + r.width() / 2, kTileSide) : tile_begin(r.y0 + r.height() / 2, kTileSide);
     if (across)
         low.x1 = high.x0 = middle;
     else
@@ -94,17 +89,6 @@ std::vector<Region> split_into_regions(const PixelRect& pixels, std::span<const 
         std::erase_if(regions, [](const Region& region) { return region.pixels.empty(); });
     }
     return regions;
-}
-
-std::vector<PixelRect> tiles_of(const PixelRect& pixels, int side) {
-    const auto first = [side](int at) { return floor_to(at, side); };
-    std::vector<PixelRect> tiles;
-    for (int y = first(pixels.y0); y < pixels.y1; y += side)
-        for (int x = first(pixels.x0); x < pixels.x1; x += side) {
-            const PixelRect tile = intersection({x, y, x + side, y + side}, pixels);
-            if (!tile.empty()) tiles.push_back(tile);
-        }
-    return tiles;
 }
 
 }  // namespace trapeze

@@ -43,8 +43,4 @@ size_t estimated_bytes(const SubpatchInfo& subpatch, const RegionLimits& limits)
 std::vector<Region> split_into_regions(const PixelRect& pixels, std::span<const SubpatchInfo> subpatches,
                                        const RegionLimits& limits);
 
-/// The tiles of a rectangle: `side` pixels wide, anchored at multiples of it (negative ones too), cut by the
-/// rectangle.
-std::vector<PixelRect> tiles_of(const PixelRect& pixels, int side = kTileSide);
-
 }  // namespace trapeze

@@ -87,18 +87,6 @@ TEST(Regions, AnImpossibleBudgetEndsAtSingleTiles) {
     EXPECT_GE(regions.size(), 8u);
 }
 
-TEST(Tiles, CoverTheRectangleAlignedToTheRaster) {
-    const auto tiles = tiles_of({-3, 5, 40, 33});
-    int pixels = 0;
-    for (const PixelRect& tile : tiles) {
-        pixels += tile.width() * tile.height();
-        EXPECT_TRUE(tile.x0 == -3 || tile.x0 % kTileSide == 0);
-        EXPECT_LE(tile.width(), kTileSide);
-    }
-    EXPECT_EQ(pixels, 43 * 28);
-    EXPECT_EQ(tiles.front(), (PixelRect{-3, 5, 0, 16}));
-}
-
 TEST(Regions, VariablesOfVerticesCountInTheEstimate) {
     SubpatchInfo subpatch;
     subpatch.shape = {16, 16};

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "pipeline/frame/render_frame.h"
+#include "pipeline/frame/frame_memory.h"
 
 namespace trapeze {
 

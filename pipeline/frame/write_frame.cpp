@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "composite/displays/write_displays.h"
+#include "pipeline/frame/cost/stopwatch.h"
 #include "pipeline/frame/json_text.h"
-#include "pipeline/frame/stopwatch.h"
 #include "pipeline/frame/version.h"
 
 namespace trapeze {

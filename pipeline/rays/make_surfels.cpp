@@ -19,7 +19,7 @@ size_t surfels_of(const GridShape& shape) {
 }
 
 /// Sums over the micropolygons of a block.
-struct Block {
+struct SurfelSums {
     V3f place{0, 0, 0}, vector_area{0, 0, 0};
     float area = 0, hiding_area = 0;
 
@@ -47,12 +47,12 @@ uint64_t surfel_id(uint32_t subpatch, int u, int v) {
 void put(const Grid& grid, bool reversed, Surfels& surfels, size_t at) {
     for (int v = 0; v < grid.shape.nv; v += kSurfelSide)
         for (int u = 0; u < grid.shape.nu; u += kSurfelSide, ++at) {
-            Block block;
+            SurfelSums sums;
             for (int j = v; j < std::min<int>(v + kSurfelSide, grid.shape.nv); ++j)
-                for (int i = u; i < std::min<int>(u + kSurfelSide, grid.shape.nu); ++i) block.add(grid, i, j);
-            surfels.positions[at] = block.area > 0 ? block.place / block.area : V3f(0);
-            surfels.normals[at] = block.vector_area.normalized() * (reversed ? -1.0f : 1.0f);
-            surfels.areas[at] = block.hiding_area;
+                for (int i = u; i < std::min<int>(u + kSurfelSide, grid.shape.nu); ++i) sums.add(grid, i, j);
+            surfels.positions[at] = sums.area > 0 ? sums.place / sums.area : V3f(0);
+            surfels.normals[at] = sums.vector_area.normalized() * (reversed ? -1.0f : 1.0f);
+            surfels.areas[at] = sums.hiding_area;
             surfels.ids[at] = surfel_id(static_cast<uint32_t>(grid.ordinal), u, v);
             const int u1 = std::min<int>(u + kSurfelSide, grid.shape.nu);
             const int v1 = std::min<int>(v + kSurfelSide, grid.shape.nv);

@@ -213,7 +213,7 @@ bool RayLevel::shows(const Grid& grid, const MicropolygonId& id, const RaySegmen
     const Primitive& primitive = dicer_.context().scene->primitives[grid.primitive];
     if (primitive.solid >= 0) return true;  // the whole solid has sides
     const Attributes& attributes = dicer_.attributes(grid.primitive);
-    if (ray.only && !ray.only->subset.has(attributes.rays.groups)) return false;
+    if (ray.only && !ray.only->admits(attributes.rays.groups)) return false;
     Sides sides = ray.only ? ray.only->sides : Sides::OfAttributes;
     if (sides == Sides::OfAttributes) sides = attributes.sides == 1 ? Sides::Front : Sides::Both;
     if (sides == Sides::Both) return true;

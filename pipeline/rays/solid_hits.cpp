@@ -16,7 +16,7 @@ float behind(float distance) {
 /// Whether a call wants the hit: by the solid's own sides.
 bool is_wanted(const RayFilter& filter, const RaySurfaceHit& hit) {
     using Sides = RayFilter::Sides;
-    if (!filter.subset.has(hit.attributes->groups)) return false;
+    if (!filter.admits(hit.attributes->groups)) return false;
     return (filter.sides != Sides::Front && filter.sides != Sides::Back) ||
            hit.from_outside == (filter.sides == Sides::Front);
 }

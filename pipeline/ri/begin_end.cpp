@@ -38,14 +38,14 @@ void begin(const std::string& name) {
     context.writer().number(3.03f);
 }
 
-void begin_block(const char* name, const char* request, Block block) {
+void begin_block(const char* name, const char* request, BlockKind block) {
     call(name, [&](Context& context) {
         context.open(block);
         context.writer().request(request);
     });
 }
 
-void end_block(const char* name, const char* request, Block block) {
+void end_block(const char* name, const char* request, BlockKind block) {
     call(name, [&](Context& context) {
         context.close(block);
         context.writer().request(request);
@@ -94,26 +94,26 @@ RtVoid RiErrorHandler(RtErrorHandler handler) {
 
 RtVoid RiFrameBegin(RtInt frame) {
     call("RiFrameBegin", [&](Context& context) {
-        context.open(Block::Frame);
+        context.open(BlockKind::Frame);
         context.writer().request("FrameBegin");
         context.writer().number(frame);
     });
 }
 
 RtVoid RiFrameEnd() {
-    end_block("RiFrameEnd", "FrameEnd", Block::Frame);
+    end_block("RiFrameEnd", "FrameEnd", BlockKind::Frame);
 }
 
 RtVoid RiWorldBegin() {
     call("RiWorldBegin", [&](Context& context) {
-        context.open(Block::World);
+        context.open(BlockKind::World);
         context.spaces.begin_world();
         context.writer().request("WorldBegin");
     });
 }
 
 RtVoid RiWorldEnd() {
-    end_block("RiWorldEnd", "WorldEnd", Block::World);
+    end_block("RiWorldEnd", "WorldEnd", BlockKind::World);
 }
 
 RtToken RiDeclare(RtToken name, RtToken declaration) {
@@ -132,29 +132,29 @@ RtToken RiDeclare(RtToken name, RtToken declaration) {
 }
 
 RtVoid RiAttributeBegin() {
-    begin_block("RiAttributeBegin", "AttributeBegin", Block::Attribute);
+    begin_block("RiAttributeBegin", "AttributeBegin", BlockKind::Attribute);
 }
 
 RtVoid RiAttributeEnd() {
-    end_block("RiAttributeEnd", "AttributeEnd", Block::Attribute);
+    end_block("RiAttributeEnd", "AttributeEnd", BlockKind::Attribute);
 }
 
 RtVoid RiTransformBegin() {
-    begin_block("RiTransformBegin", "TransformBegin", Block::Transform);
+    begin_block("RiTransformBegin", "TransformBegin", BlockKind::Transform);
 }
 
 RtVoid RiTransformEnd() {
-    end_block("RiTransformEnd", "TransformEnd", Block::Transform);
+    end_block("RiTransformEnd", "TransformEnd", BlockKind::Transform);
 }
 
 RtVoid RiSolidEnd() {
-    end_block("RiSolidEnd", "SolidEnd", Block::Solid);
+    end_block("RiSolidEnd", "SolidEnd", BlockKind::Solid);
 }
 
 RtVoid RiObjectEnd() {
-    end_block("RiObjectEnd", "ObjectEnd", Block::Object);
+    end_block("RiObjectEnd", "ObjectEnd", BlockKind::Object);
 }
 
 RtVoid RiMotionEnd() {
-    end_block("RiMotionEnd", "MotionEnd", Block::Motion);
+    end_block("RiMotionEnd", "MotionEnd", BlockKind::Motion);
 }

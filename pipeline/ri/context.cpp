@@ -18,47 +18,47 @@ Contexts& contexts() {
     return the;
 }
 
-const char* name_of(Block block) {
-    constexpr const char* kNames[] = {"Frame", "World",  "Attribute", "Transform",
-                                      "Solid", "Object", "Motion"};
+const char* name_of(BlockKind block) {
+    constexpr const char* kNames[rib::kBlockKinds] = {"Frame",  "World",  "Attribute", "Transform",
+                                                      "Motion", "Object", "Solid"};
     return kNames[static_cast<size_t>(block)];
 }
 
 }  // namespace
 
-void Context::open(Block block) {
-    const bool in_motion = !blocks_.empty() && blocks_.back().kind == Block::Motion;
-    const bool is_frame = block == Block::Frame, is_world = block == Block::World;
-    const bool too_late = is_open(Block::World) || (is_frame && is_open(Block::Frame));
+void Context::open(BlockKind block) {
+    const bool in_motion = !blocks_.empty() && blocks_.back().kind == BlockKind::Motion;
+    const bool is_frame = block == BlockKind::Frame, is_world = block == BlockKind::World;
+    const bool too_late = is_open(BlockKind::World) || (is_frame && is_open(BlockKind::Frame));
     if (in_motion || ((is_frame || is_world) && too_late))
         throw CallError{RIE_NESTING, std::string("not within Ri") + name_of(blocks_.back().kind) + "Begin"};
     blocks_.push_back({block, counting, spaces.current(), spaces.camera});
 }
 
-void Context::close(Block block) {
+void Context::close(BlockKind block) {
     if (blocks_.empty()) throw CallError{RIE_NESTING, "no block is open"};
     const OpenBlock& innermost = blocks_.back();
     if (innermost.kind != block)
         throw CallError{RIE_NESTING,
                         std::string("the innermost block is Ri") + name_of(innermost.kind) + "Begin"};
-    if (block == Block::World) spaces.end_world();
-    if (block != Block::Motion) spaces.restore(innermost.current);
-    if (block != Block::Motion && block != Block::Transform) counting = innermost.counting;
-    if (block == Block::Frame) spaces.camera = innermost.camera;
+    if (block == BlockKind::World) spaces.end_world();
+    if (block != BlockKind::Motion) spaces.restore(innermost.current);
+    if (block != BlockKind::Motion && block != BlockKind::Transform) counting = innermost.counting;
+    if (block == BlockKind::Frame) spaces.camera = innermost.camera;
     blocks_.pop_back();
 }
 
-bool Context::is_open(Block block) const {
+bool Context::is_open(BlockKind block) const {
     return std::any_of(blocks_.begin(), blocks_.end(),
                        [&](const OpenBlock& open) { return open.kind == block; });
 }
 
 void Context::expect_options() const {
-    if (is_open(Block::World)) throw CallError{RIE_NOTOPTIONS, "options cannot change within a world"};
+    if (is_open(BlockKind::World)) throw CallError{RIE_NOTOPTIONS, "options cannot change within a world"};
 }
 
 bool Context::counts() {
-    return blocks_.empty() || blocks_.back().kind != Block::Motion || blocks_.back().calls++ == 0;
+    return blocks_.empty() || blocks_.back().kind != BlockKind::Motion || blocks_.back().calls++ == 0;
 }
 
 void Context::complain(RtInt code, RtInt severity, std::string text) {

@@ -8,11 +8,12 @@
 #include "pipeline/ri/errors.h"
 #include "pipeline/ri/rib_output.h"
 #include "pipeline/ri/spaces.h"
+#include "pipeline/rib/state/block_kind.h"
 #include "pipeline/rib/state/declarations.h"
 
 namespace trapeze::ri {
 
-enum class Block { Frame, World, Attribute, Transform, Solid, Object, Motion };
+using rib::BlockKind;
 
 /// What the lengths of arrays depend on. It is saved where a block begins and comes back at its end.
 struct CountingState {
@@ -28,9 +29,9 @@ class Context {
     rib::RibWriter& writer() { return output.writer(); }
 
     /// open() begins a block; close() ends it, and throws RIE_NESTING unless it is the innermost open one.
-    void open(Block block);
-    void close(Block block);
-    bool is_open(Block block) const;
+    void open(BlockKind block);
+    void close(BlockKind block);
+    bool is_open(BlockKind block) const;
     size_t open_blocks() const { return blocks_.size(); }
     /// Throws RIE_NOTOPTIONS within a world.
     void expect_options() const;
@@ -54,7 +55,7 @@ class Context {
   private:
     /// What an open block brings back at its end.
     struct OpenBlock {
-        Block kind;
+        BlockKind kind;
         CountingState counting;
         M44d current;
         Options camera;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <thread>
 
+#include "pipeline/frame/make_context.h"
 #include "pipeline/frame/make_map.h"
 #include "pipeline/frame/render_frame.h"
 #include "pipeline/frame/safe_mode.h"

@@ -16,7 +16,7 @@ void begin_motion(Context& context, std::span<const float> times) {
     for (size_t i = 1; i < times.size(); ++i)
         if (!(times[i - 1] < times[i])) throw CallError{RIE_BADMOTION, "the times do not rise"};
     if (times.empty()) throw CallError{RIE_BADMOTION, "there are no times"};
-    context.open(Block::Motion);
+    context.open(BlockKind::Motion);
     context.writer().request("MotionBegin");
     context.writer().numbers(times);
 }
@@ -88,7 +88,7 @@ RtVoid RiSolidBegin(RtToken operation) {
         if (name != "primitive" && name != "union" && name != "intersection" && name != "difference")
             throw CallError{RIE_BADTOKEN,
                             "\"" + name + "\" is none of primitive, union, intersection, difference"};
-        context.open(Block::Solid);
+        context.open(BlockKind::Solid);
         context.writer().request("SolidBegin");
         context.writer().string(name);
     });
@@ -97,7 +97,7 @@ RtVoid RiSolidBegin(RtToken operation) {
 RtObjectHandle RiObjectBegin() {
     RtObjectHandle handle = nullptr;
     call("RiObjectBegin", [&](Context& context) {
-        context.open(Block::Object);
+        context.open(BlockKind::Object);
         context.spaces.begin_object();
         ++context.objects;
         context.writer().request("ObjectBegin");

@@ -3,7 +3,7 @@
 
 #include <zlib.h>
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 using ::testing::Contains;
@@ -31,7 +31,7 @@ TEST(ReadArchives, MayHaveAnyName) {
     std::filesystem::current_path(folder.path());
     const std::string file = "a.rib";
     folder.write(file, "WorldBegin ReadArchive \"-\" WorldEnd");
-    const Outcome outcome = read_files(folder, {file});
+    const ReadOutcome outcome = read_files(folder, {file});
     std::filesystem::current_path(before);
     EXPECT_EQ(outcome.count(), 1u);
 }
@@ -40,7 +40,7 @@ TEST(ReadArchives, RelativeToTheFileThatNamesThem) {
     const Folder folder;
     folder.write("sub/b.rib", "ReadArchive \"deep/c.rib\"");
     folder.write("sub/deep/c.rib", "\n " + kSphere + "\n Sphere 1");
-    const Outcome r = read_files(
+    const ReadOutcome r = read_files(
         folder, {folder.write("a.rib", "WorldBegin\nReadArchive \"sub/b.rib\"\n" + kSphere + "WorldEnd")});
     EXPECT_EQ(r.count(), 2u);
     EXPECT_THAT(r.messages,
@@ -54,7 +54,7 @@ TEST(ReadArchives, AlongTheSearchPath) {
     folder.write("one/x.rib", kSphere);
     folder.write("two/y.rib", kSphere);
     ASSERT_EQ(setenv("TRAPEZE_TEST_TWO", "two", 1), 0);
-    const Outcome r = read_files(
+    const ReadOutcome r = read_files(
         folder,
         {folder.write("a.rib",
                       "Option \"searchpath\" \"archive\" [\"one\"] Option \"searchpath\" \"string archive\" "
@@ -67,10 +67,10 @@ TEST(ReadArchives, AlongTheSearchPath) {
 TEST(ReadArchives, OfOtherMachinesAreFoundWithoutTheirLeadingFolders) {
     const Folder folder;
     folder.write("sub/x.rib", kSphere);
-    const Outcome r = read_files(folder, {folder.write("a.rib",
-                                                       "WorldBegin ReadArchive \"//D/show/sub/x.rib\" "
-                                                       "ReadArchive \"Z:\\\\show\\\\sub\\\\x.rib\" "
-                                                       "ReadArchive \"//D/show/sub/x.rib\" WorldEnd")});
+    const ReadOutcome r = read_files(folder, {folder.write("a.rib",
+                                                           "WorldBegin ReadArchive \"//D/show/sub/x.rib\" "
+                                                           "ReadArchive \"Z:\\\\show\\\\sub\\\\x.rib\" "
+                                                           "ReadArchive \"//D/show/sub/x.rib\" WorldEnd")});
     EXPECT_EQ(r.count(), 3u);
     ASSERT_EQ(r.messages.size(), 2u);
     for (const std::string& message : r.messages) {
@@ -80,9 +80,9 @@ TEST(ReadArchives, OfOtherMachinesAreFoundWithoutTheirLeadingFolders) {
 }
 
 TEST(ReadArchives, InlineOnesHaveTheirPlacesInTheFile) {
-    const Outcome r = read_text("ArchiveBegin \"ball\"\n" + kSphere +
-                                "\nSphere 1\nArchiveEnd\nWorldBegin\n"
-                                "Color 1 0 0 ReadArchive \"ball\"\nReadArchive \"ball\"\nWorldEnd");
+    const ReadOutcome r = read_text("ArchiveBegin \"ball\"\n" + kSphere +
+                                    "\nSphere 1\nArchiveEnd\nWorldBegin\n"
+                                    "Color 1 0 0 ReadArchive \"ball\"\nReadArchive \"ball\"\nWorldEnd");
     EXPECT_EQ(r.count(), 2u);
     EXPECT_EQ(r.attributes().color, V3f(1, 0, 0));
     EXPECT_THAT(r.messages, ElementsAre("a.rib:3:1: error: Sphere: has 1 numbers, needs 4; primitive skipped"
@@ -97,7 +97,7 @@ TEST(ReadArchives, FilesBelowAProjectNameOthersFromItsFolder) {
         "film/rib/0001/0001.rib",
         "WorldBegin\nReadArchive \"rib/job/ball.rib\"\nReadArchive \"/home/artist/film/rib/job/ball.rib\"\n"
         "ReadArchive \"ball.rib\"\nWorldEnd\n");
-    const Outcome r = read_files(folder, {main});
+    const ReadOutcome r = read_files(folder, {main});
     EXPECT_EQ(r.count(), 2u);
     EXPECT_THAT(
         r.messages,
@@ -111,7 +111,7 @@ TEST(ReadArchives, ProjectsHaveFoldersForEachKindOfFile) {
     folder.write("film/scenes/rib/ball2.rib", kSphere);
     folder.write("film/shaders/glow.sl", "");
     folder.write("film/textures/sky.tx", "");
-    const Outcome r = read_files(
+    const ReadOutcome r = read_files(
         folder, {folder.write("film/scenes/a.rib",
                               "WorldBegin ReadArchive \"ball.rib\" ReadArchive \"ball2.rib\" WorldEnd")});
     EXPECT_EQ(r.count(), 2u);
@@ -124,7 +124,7 @@ TEST(ReadArchives, ProjectsHaveFoldersForEachKindOfFile) {
 }
 
 TEST(ReadArchives, ArchivesAreReadWithoutAWorld) {
-    const Outcome r = read_text(
+    const ReadOutcome r = read_text(
         "# a part\nAttributeBegin\nSphere 1 -1 1 360\nSphere 1\nSolidBegin \"primitive\"\n"
         "MotionBegin [0 1]\nSphere 1 -1 1 360\nSphere 2 -1 1 360\nMotionEnd\nSolidEnd\n"
         "ObjectInstance 7\nProcedural \"DelayedReadArchive\" [\"b.rib\"] [-1 1 -1 1 -1 1]\nAttributeEnd\n");
@@ -135,8 +135,8 @@ TEST(ReadArchives, ArchivesAreReadWithoutAWorld) {
 }
 
 TEST(ReadArchives, GeometryBeforeAWorldIsAnError) {
-    const Outcome r = read_text("Sphere 1 -1 1 360\nSphere 1 -1 1 360\nWorldBegin\n" + kSphere +
-                                "WorldEnd\nSphere 1 -1 1 360");
+    const ReadOutcome r = read_text("Sphere 1 -1 1 360\nSphere 1 -1 1 360\nWorldBegin\n" + kSphere +
+                                    "WorldEnd\nSphere 1 -1 1 360");
     EXPECT_THAT(r.messages,
                 ElementsAre("a.rib:1:1: error: Sphere: geometry outside of a world; 2 primitives skipped",
                             "a.rib:5:1: error: Sphere: geometry outside of a world; primitive skipped"));
@@ -144,10 +144,10 @@ TEST(ReadArchives, GeometryBeforeAWorldIsAnError) {
 }
 
 TEST(ReadArchives, InlineOnesNestAndMayBeRedefinedWhileRead) {
-    const Outcome r = read_world("ArchiveBegin \"a\" ArchiveBegin \"b\" " + kSphere +
-                                 "ArchiveEnd ReadArchive \"b\" "
-                                 "ArchiveBegin \"a\" ArchiveEnd " +
-                                 kSphere + "ArchiveEnd ReadArchive \"a\" ReadArchive \"a\"");
+    const ReadOutcome r = read_world("ArchiveBegin \"a\" ArchiveBegin \"b\" " + kSphere +
+                                     "ArchiveEnd ReadArchive \"b\" "
+                                     "ArchiveBegin \"a\" ArchiveEnd " +
+                                     kSphere + "ArchiveEnd ReadArchive \"a\" ReadArchive \"a\"");
     EXPECT_THAT(r.messages, IsEmpty());
     EXPECT_EQ(r.count(), 2u);
 }
@@ -155,7 +155,7 @@ TEST(ReadArchives, InlineOnesNestAndMayBeRedefinedWhileRead) {
 TEST(ReadArchives, RecursionEnds) {
     const Folder folder;
     folder.write("b.rib", "ReadArchive \"./a.rib\" " + kSphere);
-    const Outcome r = read_files(
+    const ReadOutcome r = read_files(
         folder, {folder.write("a.rib", "WorldBegin ReadArchive \"b.rib\" ReadArchive \"../" +
                                            std::filesystem::path(folder.path()).filename().string() +
                                            "/a.rib\" WorldEnd")});
@@ -173,7 +173,7 @@ TEST(ReadArchives, BombsEndAtTheLimit) {
     }
     ReadOptions options;
     options.most_archives_read = 1000;
-    const Outcome r = read_text(
+    const ReadOutcome r = read_text(
         text + "ArchiveBegin \"a40\" ArchiveEnd ReadArchive \"a0\" WorldBegin " + kSphere + "WorldEnd",
         options);
     EXPECT_EQ(r.count(), 1u);
@@ -184,14 +184,14 @@ TEST(ReadArchives, GzipIsUndone) {
     const std::string text = "WorldBegin " + kSphere + "WorldEnd";
     EXPECT_EQ(read_text(zipped(text)).count(), 1u);
     EXPECT_EQ(read_text(zipped("WorldBegin " + kSphere) + zipped(kSphere + "WorldEnd")).count(), 2u);
-    const Outcome cut = read_text(zipped(text + std::string(1000, ' ')).substr(0, 30));
+    const ReadOutcome cut = read_text(zipped(text + std::string(1000, ' ')).substr(0, 30));
     EXPECT_THAT(cut.messages[0], HasSubstr("gzip data is cut off"));
 }
 
 TEST(ReadArchives, FilesBeyondTheLimitAreCut) {
     ReadOptions options;
     options.max_source_bytes = 1000;
-    const Outcome r =
+    const ReadOutcome r =
         read_text(zipped("WorldBegin " + kSphere + std::string(5000000, ' ') + kSphere), options);
     EXPECT_THAT(r.messages[0], HasSubstr("inflates to more than"));
     EXPECT_EQ(r.count(), 1u);
@@ -200,14 +200,14 @@ TEST(ReadArchives, FilesBeyondTheLimitAreCut) {
 
 TEST(ReadArchives, MissingFilesAreReported) {
     const Folder folder;
-    const Outcome r =
+    const ReadOutcome r =
         read_files(folder, {folder.path() + "/no.rib", folder.write("a.rib", "WorldBegin WorldEnd")});
     EXPECT_THAT(r.messages, ElementsAre(HasSubstr("cannot read \"no.rib\": No such file")));
     EXPECT_EQ(r.worlds.size(), 1u);
 }
 
 TEST(ReadText, ArraysEndBeforeTheNextRequest) {
-    const Outcome r =
+    const ReadOutcome r =
         read_world("Polygon \"P\" [0 0 0 1 0 0\n" + kSphere + "Polygon \"P\" [0 0 zero 1]\n" + kSphere);
     EXPECT_THAT(
         r.messages,
@@ -227,7 +227,7 @@ TEST(ReadText, Utf16WithAByteOrderMarkIsRead) {
             for (const int shift : {big ? 8 : 0, big ? 0 : 8})
                 bytes += static_cast<char>(unit >> shift & 255);
         const Folder folder;
-        const Outcome r = read_files(folder, {folder.write("a.rib", bytes)});
+        const ReadOutcome r = read_files(folder, {folder.write("a.rib", bytes)});
         EXPECT_THAT(r.messages, IsEmpty()) << big;
         ASSERT_EQ(r.count(), 1u) << big;
         EXPECT_EQ(r.attributes().name, "\xc3\xbc\xe4\xb8\x96\xf0\x9f\x98\x80") << big;
@@ -238,7 +238,7 @@ TEST(ReadText, Utf16WithAByteOrderMarkIsRead) {
 }
 
 TEST(ReadText, UnknownRequestsAreSkippedWithAnIdeaOfWhatWasMeant) {
-    const Outcome r = read_world("Spere 1 -1 1 360 " + kSphere + "sphere 1 Xyzzy [1 2] \"a\" " + kSphere);
+    const ReadOutcome r = read_world("Spere 1 -1 1 360 " + kSphere + "sphere 1 Xyzzy [1 2] \"a\" " + kSphere);
     EXPECT_THAT(
         r.messages,
         ElementsAre(
@@ -258,19 +258,19 @@ TEST(ReadText, WhatIsNoRibAtAllIsNoFloodOfMessages) {
         undeclared +=
             "Attribute \"" + letters(i) + "\" \"x\" [1] " + "Sphere 1 -1 1 360 \"" + letters(i) + "\" [1]\n";
     }
-    const Outcome words = read_world(prose + kSphere);
+    const ReadOutcome words = read_world(prose + kSphere);
     EXPECT_LT(words.messages.size(), 30u);
     EXPECT_THAT(words.messages, Contains(HasSubstr("further unknown names are only counted")));
     EXPECT_EQ(words.count(), 1u);
 
-    const Outcome names = read_world(undeclared + kSphere);
+    const ReadOutcome names = read_world(undeclared + kSphere);
     EXPECT_LT(names.messages.size(), 250u);
     EXPECT_THAT(names.messages, Contains(HasSubstr("further messages of other kinds are only counted")));
     EXPECT_EQ(names.count(), 3001u);
 }
 
 TEST(ReadText, UnsupportedRequestsWarnOncePerKind) {
-    const Outcome r = read_world(
+    const ReadOutcome r = read_world(
         "Volume \"box\" [0 1 0 1 0 1] [0 0 0] Volume \"box\" [0 1 0 1 0 1] [0 0 0] VPInterior \"a\" "
         "MakeBrickMap \"a\" \"b\" " +
         kSphere);
@@ -280,14 +280,14 @@ TEST(ReadText, UnsupportedRequestsWarnOncePerKind) {
 }
 
 TEST(ReadText, MessagesAreOneShortLine) {
-    const Outcome r = read_world("Sphere 1 -1 1 360 \"new\nline" + std::string(1000, 'x') + "\" [1]");
+    const ReadOutcome r = read_world("Sphere 1 -1 1 360 \"new\nline" + std::string(1000, 'x') + "\" [1]");
     ASSERT_EQ(r.messages.size(), 1u);
     EXPECT_EQ(r.messages[0].find('\n'), std::string::npos);
     EXPECT_LT(r.messages[0].size(), 250u);
 }
 
 TEST(ReadText, BlocksThatStayOpenAreClosed) {
-    const Outcome r =
+    const ReadOutcome r =
         read_text("FrameBegin 1\nWorldBegin\nAttributeBegin\nObjectBegin 1\nMotionBegin [0 1]\n" + kSphere);
     EXPECT_EQ(r.worlds.size(), 1u);
     EXPECT_THAT(
@@ -299,4 +299,4 @@ TEST(ReadText, BlocksThatStayOpenAreClosed) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

@@ -3,7 +3,7 @@
 
 #include <bit>
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -33,7 +33,7 @@ const std::string kDefineSphere = bytes({0314, 5, 0226}) + "Sphere";
 const std::string kEncodedSphere = bytes({0246, 5, 0200, 1, 0200, 0377, 0200, 1, 0201, 1, 0150});
 
 TEST(ReadBinary, RequestsAreDefinedAndUsed) {
-    const Outcome outcome =
+    const ReadOutcome outcome =
         read_world(kDefineSphere + kEncodedSphere + " Color 1 0.5 0 " + kEncodedSphere + kEncodedSphere);
     EXPECT_THAT(outcome.messages, IsEmpty());
     ASSERT_EQ(outcome.count(), 3u);
@@ -44,7 +44,7 @@ TEST(ReadBinary, RequestsAreDefinedAndUsed) {
 }
 
 TEST(ReadBinary, ValuesMixWithText) {
-    const Outcome outcome = read_world(
+    const ReadOutcome outcome = read_world(
         "Color [" + bytes({0244, 0077, 0200, 0, 0}) + bytes({0204, 0200}) + "] " /* two numbers: an error */ +
         "Color" + bytes({0245, 0077, 0320, 0, 0, 0, 0, 0, 0}) + " 0.5" + bytes({0205, 2, 0200}) + "Surface" +
         string("plastic") + "\"Kd\"" + floats({0.25f}) + bytes({0315, 3}) + "\"P\"" + "Polygon" +
@@ -61,8 +61,8 @@ TEST(ReadBinary, ValuesMixWithText) {
 }
 
 TEST(ReadBinary, IntegersMayBeArraysOfFloats) {
-    const Outcome outcome = read_world("PointsPolygons" + floats({3}) + floats({0, 1, 2}) + " \"P\"" +
-                                       floats({0, 0, 1, 1, 0, 1, 0, 1, 1}));
+    const ReadOutcome outcome = read_world("PointsPolygons" + floats({3}) + floats({0, 1, 2}) + " \"P\"" +
+                                           floats({0, 0, 1, 1, 0, 1, 0, 1, 1}));
     EXPECT_THAT(outcome.messages, IsEmpty());
     EXPECT_EQ(outcome.count(), 1u);
 }
@@ -70,7 +70,7 @@ TEST(ReadBinary, IntegersMayBeArraysOfFloats) {
 TEST(ReadBinary, ArchivesKnowWhatWasDefinedBefore) {
     const Folder folder;
     folder.write("b.rib", kEncodedSphere);
-    const Outcome outcome = read_files(
+    const ReadOutcome outcome = read_files(
         folder, {folder.write("a.rib", "WorldBegin " + kDefineSphere + "ArchiveBegin \"x\" " +
                                            kEncodedSphere + " ArchiveEnd " + bytes({0314, 5}) + "\"Cone\" " +
                                            "ReadArchive \"x\" ReadArchive \"b.rib\" WorldEnd")});
@@ -86,7 +86,7 @@ TEST(ReadBinary, SkippedBranchesDefineToo) {
 }
 
 TEST(ReadBinary, WhatIsWrongTakesItsRequestOnly) {
-    const Outcome outcome =
+    const ReadOutcome outcome =
         read_world("Color " + bytes({0246, 9, 0200, 1}) + " Surface " + bytes({0317, 9}) + "\n" +
                    "Translate " + bytes({0377}) + "1 0 0\n" + bytes({0314, 1, 0200, 1}) + kSphere +
                    "Polygon \"P\" " + floats({0, std::numeric_limits<float>::infinity(), 0}) + " " + kSphere);
@@ -100,7 +100,7 @@ TEST(ReadBinary, WhatIsWrongTakesItsRequestOnly) {
 }
 
 TEST(ReadBinary, CutOffFilesAreReadAsFarAsTheyGo) {
-    const Outcome outcome =
+    const ReadOutcome outcome =
         read_text("WorldBegin " + kSphere + "Polygon \"P\" " + bytes({0313, 0377, 0377, 0377, 0377, 1, 2}));
     EXPECT_EQ(outcome.count(), 1u);
     EXPECT_THAT(outcome.messages[0], HasSubstr("Polygon: an encoded value that reaches beyond the end"));
@@ -110,12 +110,12 @@ TEST(ReadBinary, ShortCodesDoNotMakeEndlessTexts) {
     std::string text =
         "Attribute \"user\" \"string x\" [" + bytes({0315, 1}) + '"' + std::string(4096, 'x') + '"';
     for (int i = 0; i < 17000; ++i) text += bytes({0317, 1});
-    const Outcome outcome = read_world(text + "]\nAttribute \"user\" \"string y\" [" + bytes({0315, 2}) +
-                                       '"' + std::string(4097, 'y') + "\"]\n" + kSphere);
+    const ReadOutcome outcome = read_world(text + "]\nAttribute \"user\" \"string y\" [" + bytes({0315, 2}) +
+                                           '"' + std::string(4097, 'y') + "\"]\n" + kSphere);
     ASSERT_EQ(outcome.messages.size(), 2u);
     EXPECT_THAT(outcome.messages[0], HasSubstr("an array of strings that are too long in all"));
     EXPECT_THAT(outcome.messages[1], HasSubstr("by more than 4096 bytes"));
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

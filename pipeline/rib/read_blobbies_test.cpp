@@ -1,7 +1,7 @@
 /// Blobby and Points, valid and not.
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -11,7 +11,7 @@ using ::testing::IsEmpty;
 const std::string kUnit = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 ";
 
 TEST(ReadBlobbies, TakeCodeFloatsAndVariables) {
-    const Outcome r =
+    const ReadOutcome r =
         read_world("Blobby 2 [1001 0 1001 16 0 2 0 1] [" + kUnit + kUnit +
                    "] [] \"Cs\" [1 0 0 0 1 0] \"constant float k\" 2 "
                    "Blobby 2 [1001 0 1003 0 16 0 2 0 1] [" +
@@ -44,7 +44,7 @@ TEST(ReadBlobbies, WhatIsWrongIsSaidWithItsPlace) {
         {"0 [] []", "the code is empty"},
     };
     for (const auto& [text, message] : wrong) {
-        const Outcome r = read_world("Blobby " + text + "\nSphere 1 -1 1 360");
+        const ReadOutcome r = read_world("Blobby " + text + "\nSphere 1 -1 1 360");
         ASSERT_EQ(r.messages.size(), 1u) << text;
         EXPECT_THAT(r.messages[0], HasSubstr(message)) << text;
         EXPECT_THAT(r.messages[0], HasSubstr("a.rib:2:1: error: Blobby")) << text;
@@ -53,7 +53,7 @@ TEST(ReadBlobbies, WhatIsWrongIsSaidWithItsPlace) {
 }
 
 TEST(ReadBlobbies, TheCodeSaysHowManyLeavesThereAre) {
-    const Outcome r =
+    const ReadOutcome r =
         read_world("Blobby 3 [1001 0 1001 0 0 2 0 1] [" + kUnit + "] \"varying float k\" [1 2]");
     ASSERT_EQ(r.messages.size(), 1u);
     EXPECT_THAT(r.messages[0], HasSubstr("warning: Blobby: the code has 2 leaves, not 3"));
@@ -62,15 +62,15 @@ TEST(ReadBlobbies, TheCodeSaysHowManyLeavesThereAre) {
 }
 
 TEST(ReadBlobbies, FieldsOfCompiledCodeAreNothing) {
-    const Outcome r = read_world("Blobby 2 [1001 0 1004 0 2 14 1 1 0 2 0 1] [" + kUnit +
-                                 "] [\"field.so\" \"its argument\"]");
+    const ReadOutcome r = read_world("Blobby 2 [1001 0 1004 0 2 14 1 1 0 2 0 1] [" + kUnit +
+                                     "] [\"field.so\" \"its argument\"]");
     ASSERT_EQ(r.messages.size(), 1u);
     EXPECT_THAT(r.messages[0], HasSubstr("warning: Blobby: fields of compiled code (1004)"));
     EXPECT_EQ(std::get<Blobby>(r.primitive().shape().topology).leaf_count, 2);
 }
 
 TEST(ReadBlobbies, Deform) {
-    const Outcome r = read_text(
+    const ReadOutcome r = read_text(
         "Shutter 0 1 WorldBegin MotionBegin [-1 1] Blobby 1 [1000 0] [3] "
         "Blobby 1 [1000 0] [5] MotionEnd WorldEnd");
     EXPECT_THAT(r.messages, IsEmpty());
@@ -83,14 +83,14 @@ TEST(ReadBlobbies, Deform) {
 }
 
 TEST(ReadPoints, TakePlacesAndWidths) {
-    const Outcome r = read_world(
+    const ReadOutcome r = read_world(
         "Points \"P\" [0 0 0 1 1 1] \"width\" [1 2] \"Cs\" [1 0 0 0 1 0] "
         "Points \"P\" [0 0 0] \"constantwidth\" [.1]");
     EXPECT_THAT(r.messages, IsEmpty());
     ASSERT_EQ(r.count(), 2u);
     EXPECT_EQ(std::get<Points>(r.primitive(0).shape().topology).count, 2);
     EXPECT_EQ(r.summary.points, 3u);
-    const Outcome bad = read_world("Points \"width\" [1 2]\nPoints \"P\" [0 0 0] \"width\" [1 2]");
+    const ReadOutcome bad = read_world("Points \"width\" [1 2]\nPoints \"P\" [0 0 0] \"width\" [1 2]");
     ASSERT_EQ(bad.messages.size(), 2u);
     EXPECT_THAT(bad.messages[0], HasSubstr("a.rib:2:1: error: Points: \"P\" is missing"));
     EXPECT_THAT(bad.messages[1], HasSubstr("\"width\" has 2 values, needs 1"));
@@ -98,4 +98,4 @@ TEST(ReadPoints, TakePlacesAndWidths) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

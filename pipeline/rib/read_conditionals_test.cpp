@@ -1,7 +1,7 @@
 /// IfBegin and its kin, blocks skipped whole, variables in texts.
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -9,7 +9,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 /// The names of the primitives' surfaces, in their order.
-std::string surfaces(const Outcome& outcome) {
+std::string surfaces(const ReadOutcome& outcome) {
     std::string names;
     for (size_t i = 0; i < outcome.count(); ++i) names += outcome.attributes(i).surface->name;
     return names;
@@ -20,11 +20,11 @@ std::string ball(const std::string& name) {
 }
 
 std::string branches(const std::string& pass) {
-    const Outcome outcome = read_text("Option \"user\" \"string pass\" [\"" + pass + "\"]\nWorldBegin\n" +
-                                      ball("a") + "IfBegin \"$user:pass == 'one'\"\n" + ball("b") +
-                                      "ElseIf \"$Option:user:pass == 'two'\"\n" + ball("c") +
-                                      "ElseIf \"$user:pass == 'one' || $user:pass == 'three'\"\n" +
-                                      ball("d") + "Else\n" + ball("e") + "IfEnd\n" + ball("f") + "WorldEnd");
+    const ReadOutcome outcome = read_text(
+        "Option \"user\" \"string pass\" [\"" + pass + "\"]\nWorldBegin\n" + ball("a") +
+        "IfBegin \"$user:pass == 'one'\"\n" + ball("b") + "ElseIf \"$Option:user:pass == 'two'\"\n" +
+        ball("c") + "ElseIf \"$user:pass == 'one' || $user:pass == 'three'\"\n" + ball("d") + "Else\n" +
+        ball("e") + "IfEnd\n" + ball("f") + "WorldEnd");
     EXPECT_THAT(outcome.messages, IsEmpty());
     return surfaces(outcome);
 }
@@ -37,16 +37,16 @@ TEST(ReadConditionals, OneBranchIsExecuted) {
 }
 
 TEST(ReadConditionals, Nest) {
-    const Outcome outcome = read_world("IfBegin \"0\" IfBegin \"1\" " + ball("a") + "Else " + ball("b") +
-                                       "IfEnd " + ball("c") + "Else IfBegin \"0\" " + ball("d") + "Else " +
-                                       ball("e") + "IfEnd " + ball("f") + "IfEnd " + ball("g"));
+    const ReadOutcome outcome = read_world("IfBegin \"0\" IfBegin \"1\" " + ball("a") + "Else " + ball("b") +
+                                           "IfEnd " + ball("c") + "Else IfBegin \"0\" " + ball("d") +
+                                           "Else " + ball("e") + "IfEnd " + ball("f") + "IfEnd " + ball("g"));
     EXPECT_THAT(outcome.messages, IsEmpty());
     EXPECT_EQ(surfaces(outcome), "efg");
 }
 
 TEST(ReadConditionals, AttributesComeBeforeOptionsAndFollowBlocks) {
     const std::string test = "IfBegin \"$user:x == 1\" " + ball("y") + "Else " + ball("n") + "IfEnd ";
-    const Outcome outcome =
+    const ReadOutcome outcome =
         read_text("FrameBegin 7 Option \"user\" \"float x\" [1] WorldBegin " + test +
                   "AttributeBegin Attribute \"user\" \"float x\" [2] " + test + "AttributeEnd " + test +
                   "IfBegin \"$Frame == 7 && $Option:Frame == 7\" " + ball("7") + "IfEnd WorldEnd FrameEnd");
@@ -55,7 +55,7 @@ TEST(ReadConditionals, AttributesComeBeforeOptionsAndFollowBlocks) {
 }
 
 TEST(ReadConditionals, WorkInArchivesAndAroundOptions) {
-    const Outcome outcome = read_text(
+    const ReadOutcome outcome = read_text(
         "ArchiveBegin \"ball\" IfBegin \"$Attribute:user:big\" " + ball("b") + "Else " + ball("s") +
         "IfEnd ArchiveEnd IfBegin \"defined(Option:user:none)\" Format 10 20 1 Else Format 30 40 1 IfEnd "
         "WorldBegin Attribute \"user\" \"int big\" [1] ReadArchive \"ball\" "
@@ -66,7 +66,7 @@ TEST(ReadConditionals, WorkInArchivesAndAroundOptions) {
 }
 
 TEST(ReadConditionals, SkippedBranchesAreNotValidated) {
-    const Outcome outcome = read_world(
+    const ReadOutcome outcome = read_world(
         "IfBegin \"0\" Sphere 1 Spere 2 Polygon \"P\" [1 nonsense] ReadArchive \"none.rib\" WorldEnd\n"
         "ArchiveBegin \"z\" ArchiveEnd IfEnd " +
         ball("a") + "ReadArchive \"z\"");
@@ -75,8 +75,8 @@ TEST(ReadConditionals, SkippedBranchesAreNotValidated) {
 }
 
 TEST(ReadConditionals, UnbalancedOnesAreSaid) {
-    const Outcome outcome = read_world("IfEnd\nElse\nIfBegin \"1\"\nElse\nElse\nIfEnd\nElseIf \"1\"\n" +
-                                       ball("a") + "IfBegin \"1\"\n" + ball("b"));
+    const ReadOutcome outcome = read_world("IfEnd\nElse\nIfBegin \"1\"\nElse\nElse\nIfEnd\nElseIf \"1\"\n" +
+                                           ball("a") + "IfBegin \"1\"\n" + ball("b"));
     EXPECT_EQ(surfaces(outcome), "ab");
     EXPECT_THAT(outcome.messages,
                 ElementsAre("a.rib:2:1: error: IfEnd: no IfBegin is open here; request skipped",
@@ -87,7 +87,7 @@ TEST(ReadConditionals, UnbalancedOnesAreSaid) {
 }
 
 TEST(ReadConditionals, EndWithTheArchiveThatOpenedThem) {
-    const Outcome outcome = read_world(
+    const ReadOutcome outcome = read_world(
         "ArchiveBegin \"open\"\nIfBegin \"0\"\nArchiveEnd\n"
         "ArchiveBegin \"end\"\nIfEnd\nArchiveEnd\n"
         "ReadArchive \"open\"\n" +
@@ -99,7 +99,7 @@ TEST(ReadConditionals, EndWithTheArchiveThatOpenedThem) {
 }
 
 TEST(ReadConditionals, WrongConditionsAreFalse) {
-    const Outcome outcome =
+    const ReadOutcome outcome =
         read_world("IfBegin \"1 +\" " + ball("a") + "Else " + ball("b") + "IfEnd IfBegin \"$user:none\" " +
                    ball("c") + "IfEnd IfBegin \"$user:none\" IfEnd IfBegin " + ball("d"));
     EXPECT_EQ(surfaces(outcome), "bd");
@@ -110,7 +110,7 @@ TEST(ReadConditionals, WrongConditionsAreFalse) {
 }
 
 TEST(ReadConditionals, EditBlocksAreSkippedWhole) {
-    const Outcome outcome =
+    const ReadOutcome outcome =
         read_world("EditBegin \"attribute\" \"x\" " + ball("a") + "EditEnd " + ball("b") +
                    "EditBegin \"instance\" EditBegin \"x\" EditEnd " + ball("c") + "EditEnd EditEnd");
     EXPECT_EQ(surfaces(outcome), "b");
@@ -122,7 +122,7 @@ TEST(ReadConditionals, EditBlocksAreSkippedWhole) {
 TEST(ReadConditionals, DeepOnesEnd) {
     std::string text;
     for (int i = 0; i < 5000; ++i) text += "IfBegin \"1\"\n";
-    const Outcome outcome = read_world(text + ball("a"));
+    const ReadOutcome outcome = read_world(text + ball("a"));
     EXPECT_EQ(surfaces(outcome), "a");
     EXPECT_THAT(outcome.messages[0], HasSubstr("nested more than 1000 deep"));
 }
@@ -135,7 +135,7 @@ TEST(ReadConditionals, TheEnvironmentIsTheLastResort) {
 }
 
 TEST(ReadConditionals, TextsNameVariablesOnceAskedTo) {
-    const Outcome outcome =
+    const ReadOutcome outcome =
         read_text("Option \"user\" \"string who\" [\"bob\"] WorldBegin Surface \"$who\" " + kSphere +
                   "WorldEnd Option \"ribparse\" \"string varsubst\" [\"$\"] FrameBegin 3 WorldBegin "
                   "Surface \"$who\" Attribute \"identifier\" \"name\" [\"${user:who}_$Frame\"] " +
@@ -148,4 +148,4 @@ TEST(ReadConditionals, TextsNameVariablesOnceAskedTo) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

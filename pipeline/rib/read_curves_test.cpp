@@ -1,7 +1,7 @@
 /// Curves, valid and not.
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -15,7 +15,7 @@ std::string points(int count) {
 }
 
 TEST(ReadCurves, LinearAndCubicOfEveryWrap) {
-    const Outcome r = read_world(
+    const ReadOutcome r = read_world(
         "Curves \"linear\" [2 3] \"nonperiodic\" " + points(5) +
         "\"width\" [1 2 3 4 5] \"uniform color Cs\" [1 0 0 0 1 0] "
         "Basis \"b-spline\" 1 \"catmull-rom\" 1 Curves \"cubic\" [4 6] \"periodic\" " +
@@ -39,7 +39,7 @@ TEST(ReadCurves, LinearAndCubicOfEveryWrap) {
 
 /// There and back again.
 TEST(ReadCurves, TwoPointsMayClose) {
-    const Outcome r = read_world("Curves \"linear\" [2] \"periodic\" " + points(2));
+    const ReadOutcome r = read_world("Curves \"linear\" [2] \"periodic\" " + points(2));
     EXPECT_THAT(r.messages, IsEmpty());
     EXPECT_EQ(r.count(), 1u);
 }
@@ -57,7 +57,7 @@ TEST(ReadCurves, WhatIsWrongIsSaidWithItsPlace) {
         {"\"linear\" [2000000000 2000000000] \"nonperiodic\" " + points(2), "more than 268435456 points"},
     };
     for (const auto& [text, message] : wrong) {
-        const Outcome r = read_world("Curves " + text + "\nSphere 1 -1 1 360");
+        const ReadOutcome r = read_world("Curves " + text + "\nSphere 1 -1 1 360");
         ASSERT_EQ(r.messages.size(), 1u) << text;
         EXPECT_THAT(r.messages[0], HasSubstr(message)) << text;
         EXPECT_THAT(r.messages[0], HasSubstr("a.rib:2:1: error: Curves")) << text;
@@ -66,7 +66,7 @@ TEST(ReadCurves, WhatIsWrongIsSaidWithItsPlace) {
 }
 
 TEST(ReadCurves, UnknownWrapsLeaveThemOpen) {
-    const Outcome r = read_world("Curves \"linear\" [2] \"closed\" " + points(2));
+    const ReadOutcome r = read_world("Curves \"linear\" [2] \"closed\" " + points(2));
     EXPECT_THAT(r.messages, ElementsAre(HasSubstr("a.rib:2:1: warning: Curves: \"closed\" is neither "
                                                   "periodic nor nonperiodic; taken as nonperiodic")));
     ASSERT_EQ(r.count(), 1u);
@@ -74,7 +74,7 @@ TEST(ReadCurves, UnknownWrapsLeaveThemOpen) {
 }
 
 TEST(ReadCurves, PointsBeyondTheLastSegmentAreLeftOver) {
-    const Outcome r =
+    const ReadOutcome r =
         read_world("Curves \"cubic\" [6 7] \"nonperiodic\" " + points(13) + "\"width\" [1 2 3 4 5]");
     EXPECT_THAT(
         r.messages,
@@ -86,7 +86,7 @@ TEST(ReadCurves, PointsBeyondTheLastSegmentAreLeftOver) {
 }
 
 TEST(ReadCurves, CurvesOfTooFewPointsAreLeftOut) {
-    const Outcome r = read_world(
+    const ReadOutcome r = read_world(
         "Basis \"b-spline\" 1 \"b-spline\" 1 Curves \"cubic\" [3 5 0 1 2 4] \"nonperiodic\" " + points(15) +
         "\"width\" [1 2 3 4 5 6] \"uniform float f\" [1 2 3 4 5 6] "
         "\"vertex float g\" [1 2 3 4 5 6 7 8 9 10 11 12 13 14 15]");
@@ -100,7 +100,7 @@ TEST(ReadCurves, CurvesOfTooFewPointsAreLeftOut) {
     EXPECT_THAT(shape.variables.find("g")->floats, ElementsAre(4, 5, 6, 7, 8, 12, 13, 14, 15));
     EXPECT_EQ(shape.variables.find("P")->floats.size(), 27u);
 
-    const Outcome lines =
+    const ReadOutcome lines =
         read_world("Curves \"linear\" [1 2 0] \"nonperiodic\" " + points(3) + "\"width\" [1 2 3]");
     ASSERT_EQ(lines.count(), 1u);
     EXPECT_THAT(lines.primitive().shape().variables.find("width")->floats, ElementsAre(2, 3));
@@ -108,23 +108,24 @@ TEST(ReadCurves, CurvesOfTooFewPointsAreLeftOut) {
 
 TEST(ReadCurves, WidthsOfAWrongNumberAreLeftOut) {
     const std::string curve = "Curves \"linear\" [3] \"nonperiodic\" " + points(3);
-    const Outcome r = read_world(curve + "\"width\" [1 2]");
+    const ReadOutcome r = read_world(curve + "\"width\" [1 2]");
     EXPECT_THAT(r.messages, ElementsAre(HasSubstr("error: Curves: \"width\" has 2 values, needs 3")));
     ASSERT_EQ(r.count(), 1u);
     EXPECT_EQ(r.primitive().shape().variables.find("width"), nullptr);
-    const Outcome one = read_world(curve + "\"width\" [.5]");
+    const ReadOutcome one = read_world(curve + "\"width\" [.5]");
     EXPECT_THAT(one.messages, ElementsAre(HasSubstr("has 1 values, needs 3; it is taken as constant")));
     EXPECT_EQ(one.primitive().shape().variables.find("width")->declaration.storage, StorageClass::Constant);
 }
 
 TEST(ReadCurves, Deform) {
     const std::string curve = "Curves \"linear\" [2] \"nonperiodic\" \"constantwidth\" .1 ";
-    const Outcome r = read_text("Shutter 0 1 WorldBegin MotionBegin [0 1] " + curve + "\"P\" [0 0 0 1 0 0] " +
-                                curve + "\"P\" [0 0 0 1 5 0] MotionEnd WorldEnd");
+    const ReadOutcome r =
+        read_text("Shutter 0 1 WorldBegin MotionBegin [0 1] " + curve + "\"P\" [0 0 0 1 0 0] " + curve +
+                  "\"P\" [0 0 0 1 5 0] MotionEnd WorldEnd");
     EXPECT_THAT(r.messages, IsEmpty());
     ASSERT_EQ(r.primitive().shape_keys.size(), 2u);
     EXPECT_EQ(r.primitive().shape_keys[1]->variables.find("P")->floats[4], 5);
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

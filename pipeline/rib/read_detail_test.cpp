@@ -5,7 +5,7 @@
 #include "core/scene/level_of_detail.h"
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -21,8 +21,8 @@ const std::string kBound = "Detail [-0.4 0.4 -0.2 0.2 0 3] ";
 
 /// Of the samples' numbers, those that see the primitive: none is {0, 0}.
 std::array<float, 2> seen(const std::string& range, const std::string& options = "") {
-    const Outcome outcome = read_text(kView + options + "WorldBegin Opacity 0.5 0.5 1 " + kBound +
-                                      "DetailRange " + range + " " + kSphere + "WorldEnd");
+    const ReadOutcome outcome = read_text(kView + options + "WorldBegin Opacity 0.5 0.5 1 " + kBound +
+                                          "DetailRange " + range + " " + kSphere + "WorldEnd");
     EXPECT_THAT(outcome.messages, IsEmpty());
     if (outcome.count() == 0) return {0, 0};
     EXPECT_EQ(outcome.attributes().opacity, V3f(0.5f, 0.5f, 1));
@@ -65,7 +65,7 @@ TEST(ReadDetail, PerspectiveMakesFarThingsSmall) {
 }
 
 TEST(ReadDetail, BoundsAroundTheEyeAreLarge) {
-    const Outcome outcome = read_text(
+    const ReadOutcome outcome = read_text(
         "Projection \"perspective\" WorldBegin Detail [-1 1 -1 1 -1 1] DetailRange [1e20 1e20 1e38 1e38] " +
         kSphere + "WorldEnd");
     EXPECT_EQ(outcome.count(), 1u);
@@ -77,7 +77,7 @@ TEST(ReadDetail, WithoutABoundDetailIsInfinite) {
 }
 
 TEST(ReadDetail, BlocksRestoreItAndInstancesTakeIt) {
-    const Outcome outcome =
+    const ReadOutcome outcome =
         read_text(kView + "WorldBegin ObjectBegin 1 " + kSphere + "ObjectEnd AttributeBegin " + kBound +
                   "DetailRange [0 0 10 10] ObjectInstance 1 DetailRange [0 0 700 1100] "
                   "ObjectInstance 1 AttributeEnd ObjectInstance 1 WorldEnd");
@@ -87,7 +87,7 @@ TEST(ReadDetail, BlocksRestoreItAndInstancesTakeIt) {
 }
 
 TEST(ReadDetail, WrongOnesAreSaid) {
-    const Outcome outcome = read_world(
+    const ReadOutcome outcome = read_world(
         "DetailRange [3 2 1 0]\nDetail [1 0 0 1 0 1]\nBound [0 1 0 1]\n"
         "ObjectBegin 1 Detail [0 1 0 1 0 1] ObjectEnd " +
         kSphere);
@@ -100,7 +100,7 @@ TEST(ReadDetail, WrongOnesAreSaid) {
 }
 
 TEST(ReadApproximation, FactorsAndDiceBecomeAttributes) {
-    const Outcome outcome = read_world(
+    const ReadOutcome outcome = read_world(
         "GeometricApproximation \"motionfactor\" 1.5 GeometricApproximation \"focusfactor\" [2] "
         "GeometricApproximation \"flatness\" 0.5 GeometricRepresentation \"smooth\" Bound [0 1 0 1 0 1] "
         "Attribute \"dice\" \"int binary\" [1] \"rasterorient\" [0] \"int hair\" [1] "
@@ -117,7 +117,7 @@ TEST(ReadApproximation, FactorsAndDiceBecomeAttributes) {
 
 TEST(ReadAttributes, VisibilityHasManyForms) {
     const auto visible = [](const std::string& attribute) {
-        const Outcome outcome = read_world("Attribute " + attribute + kSphere);
+        const ReadOutcome outcome = read_world("Attribute " + attribute + kSphere);
         EXPECT_THAT(outcome.messages, IsEmpty());
         return outcome.attributes().visible_to_camera;
     };
@@ -132,14 +132,14 @@ TEST(ReadAttributes, VisibilityHasManyForms) {
 }
 
 TEST(ReadAttributes, OldFilesBoundDisplacementsToo) {
-    const Outcome outcome = read_world("Scale 2 2 2 Attribute \"bound\" \"displacement\" 0.1 " + kSphere);
+    const ReadOutcome outcome = read_world("Scale 2 2 2 Attribute \"bound\" \"displacement\" 0.1 " + kSphere);
     EXPECT_THAT(outcome.messages, IsEmpty());
     EXPECT_NEAR(outcome.attributes().displacement_bound, 0.2f, 1e-6f);
     EXPECT_THAT(outcome.summary.without_effect, IsEmpty());
 }
 
 TEST(ReadApproximation, ObjectsKeepTheirOwn) {
-    const Outcome outcome = read_world(
+    const ReadOutcome outcome = read_world(
         "ObjectBegin 1 GeometricApproximation \"motionfactor\" 2 "
         "Attribute \"dice\" \"int binary\" [1] " +
         kSphere + "ObjectEnd ObjectInstance 1");
@@ -148,7 +148,7 @@ TEST(ReadApproximation, ObjectsKeepTheirOwn) {
 }
 
 TEST(ReadApproximation, UnknownOrNegativeOnesAreSaid) {
-    const Outcome outcome = read_world(
+    const ReadOutcome outcome = read_world(
         "GeometricApproximation \"motionfactor\" -1\n"
         "GeometricApproximation \"wobble\" 1 GeometricApproximation "
         "\"wobble\" 1 " +
@@ -158,4 +158,4 @@ TEST(ReadApproximation, UnknownOrNegativeOnesAreSaid) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

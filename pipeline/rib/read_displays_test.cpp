@@ -2,7 +2,7 @@
 #include "core/scene/transfer.h"
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -11,8 +11,8 @@ using ::testing::IsEmpty;
 
 /// The variable of `Display "+b.exr" "exr" "mode"`, after `before`.
 std::optional<DisplayVariable> variable_of(const std::string& mode, const std::string& before = {}) {
-    const Outcome r = read_text("Display \"a.exr\" \"exr\" \"rgba\" " + before +
-                                " Display \"+b.exr\" \"exr\" \"" + mode + "\" WorldBegin WorldEnd");
+    const ReadOutcome r = read_text("Display \"a.exr\" \"exr\" \"rgba\" " + before +
+                                    " Display \"+b.exr\" \"exr\" \"" + mode + "\" WorldBegin WorldEnd");
     EXPECT_THAT(r.messages, IsEmpty());
     EXPECT_EQ(r.scene().options.displays.at(1).mode, mode);
     EXPECT_FALSE(r.scene().options.displays.at(0).variable);
@@ -57,7 +57,7 @@ TEST(ReadDisplays, WhatHasNotOneOrThreeNumbersIsNoVariable) {
 }
 
 TEST(ReadDisplays, ChannelsHandTheirParametersToDisplays) {
-    const Outcome r = read_text(
+    const ReadOutcome r = read_text(
         "DisplayChannel \"float foo\" \"quantize\" [0 100 0 100] \"float dither\" [0.25]\n"
         "Display \"a.tif\" \"tiff\" \"foo\" \"dither\" [0]\n"
         "FrameBegin 1 DisplayChannel \"color bar\" FrameEnd\n"
@@ -73,7 +73,7 @@ TEST(ReadDisplays, ChannelsHandTheirParametersToDisplays) {
 }
 
 TEST(ReadDisplays, FiltersOfVariables) {
-    const Outcome r = read_text(
+    const ReadOutcome r = read_text(
         "DisplayChannel \"point P\" \"string filter\" [\"zmin\"]\n"
         "Display \"a.exr\" \"openexr\" \"Ci,P,N\"\n"
         "Display \"+b.exr\" \"openexr\" \"color foo\" \"string filter\" [\"max\"]\n"
@@ -89,7 +89,7 @@ TEST(ReadDisplays, FiltersOfVariables) {
 }
 
 TEST(ReadDisplays, ListsOfChannelsAreDisplaysOfOneFile) {
-    const Outcome r = read_text(
+    const ReadOutcome r = read_text(
         "DisplayChannel \"color even\" \"string source\" [\"Ci\"] \"float dither\" [.25]\n"
         "Display \"a.exr\" \"openexr\" \"a, even,Ci,varying normal N,z\" \"string compression\" [\"piz\"]\n"
         "Display \"+b.exr\" \"openexr\" \"even,N\" WorldBegin WorldEnd");
@@ -106,14 +106,14 @@ TEST(ReadDisplays, ListsOfChannelsAreDisplaysOfOneFile) {
     expect_variable(displays[2].variable, "N", ValueType::Normal);
     expect_variable(displays[3].variable, "Ci", ValueType::Color);
     EXPECT_FALSE(displays[0].parameters.find("dither"));
-    const Outcome replaced =
+    const ReadOutcome replaced =
         read_text("Display \"a.exr\" \"exr\" \"rgb,N\" Display \"b.exr\" \"exr\" \",\" WorldBegin WorldEnd");
     ASSERT_EQ(replaced.scene().options.displays.size(), 1u);
     EXPECT_EQ(replaced.scene().options.displays[0].mode, "");
 }
 
 TEST(ReadDisplays, ChannelsMayBeOtherNamesOfVariables) {
-    const Outcome r = read_text(
+    const ReadOutcome r = read_text(
         "DisplayChannel \"color even\" \"string source\" [\"Ci\"] \"string statistics\" [\"even\"]\n"
         "DisplayChannel \"color albedo\" \"string source\" [\"color lpe:nothruput;noinfinitecheck;C\"]\n"
         "Display \"a.exr\" \"openexr\" \"even\" Display \"+b.exr\" \"openexr\" \"albedo\"\n"
@@ -125,20 +125,21 @@ TEST(ReadDisplays, ChannelsMayBeOtherNamesOfVariables) {
 }
 
 TEST(ReadDisplays, ChannelsOfIntegersAreFloats) {
-    const Outcome r =
+    const ReadOutcome r =
         read_text("DisplayChannel \"int layer\" Display \"a.exr\" \"openexr\" \"layer\" WorldBegin WorldEnd");
     EXPECT_THAT(r.messages, IsEmpty());
     expect_variable(r.scene().options.displays[0].variable, "layer", ValueType::Float);
 }
 
 TEST(ReadDisplays, WrongChannelsAreErrors) {
-    const Outcome r = read_text("DisplayChannel \"string foo\"\nDisplayChannel \"rgb\"\nWorldBegin WorldEnd");
+    const ReadOutcome r =
+        read_text("DisplayChannel \"string foo\"\nDisplayChannel \"rgb\"\nWorldBegin WorldEnd");
     EXPECT_THAT(r.messages,
                 ElementsAre(HasSubstr("\"string foo\" is no float, color, point, vector or normal")));
 }
 
 TEST(ReadDisplays, ImagersAreShadersWithParameters) {
-    const Outcome r = read_text(
+    const ReadOutcome r = read_text(
         "Translate 1 2 3 Imager \"background\" \"bgcolor\" [.1 .2 .3] \"uniform float strange\" [7]\n"
         "WorldBegin WorldEnd Imager \"null\" WorldBegin WorldEnd");
     EXPECT_THAT(r.messages, IsEmpty());
@@ -155,7 +156,7 @@ TEST(ReadDisplays, ImagersAreShadersWithParameters) {
 }
 
 TEST(ReadDisplays, UnknownTransfersAreErrorsAndChangeNothing) {
-    const Outcome r = read_text(
+    const ReadOutcome r = read_text(
         "Option \"color\" \"string transfer\" [\"srgb\"]\nOption \"color\" \"transfer\" [\"rec709\"]\n"
         "Option \"color\" \"transfer\" [2.2]\n"
         "Display \"a.png\" \"png\" \"rgb\" \"colorspace\" \"linear\"\n"
@@ -173,4 +174,4 @@ TEST(ReadDisplays, UnknownTransfersAreErrorsAndChangeNothing) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

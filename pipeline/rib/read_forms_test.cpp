@@ -2,7 +2,7 @@
 #include "core/motion_keys.h"
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -12,22 +12,22 @@ using ::testing::SizeIs;
 
 constexpr const char* kSquare = " \"P\" [0 0 0 1 0 0 1 1 0 0 1 0] ";
 
-const std::vector<SubdivisionMesh::Tag>& tags(const Outcome& outcome, size_t i = 0) {
+const std::vector<SubdivisionMesh::Tag>& tags(const ReadOutcome& outcome, size_t i = 0) {
     return std::get<SubdivisionMesh>(outcome.primitive(i).shape().topology).tags;
 }
 
 TEST(ReadForms, BracketsAreOptionalRoundFixedNumbersOfValues) {
-    const Outcome bare = read_text(
+    const ReadOutcome bare = read_text(
         "Format 320 240 1 Clipping 0.1 100 Shutter 0 0.5 PixelSamples 3 4 PixelFilter \"box\" 2 3 Exposure 2 "
         "1\n"
         "DepthOfField 2 1 5 WorldBegin Color 1 0.5 0 ShadingRate 4 Hyperboloid 0 0 0 1 1 1 360\n"
         "Surface \"plastic\" \"Kd\" 0.25 \"specularcolor\" 0 1 0 Sphere 1 -1 1 360 WorldEnd\n");
-    const Outcome bracketed = read_text(
+    const ReadOutcome bracketed = read_text(
         "Format [320 240 1] Clipping [0.1 100] Shutter [0 0.5] PixelSamples [3 4] PixelFilter \"box\" [2 3]\n"
         "Exposure [2 1] DepthOfField [2 1 5] WorldBegin Color [1 0.5 0] ShadingRate [4]\n"
         "Hyperboloid [0 0 0] [1 1 1] 360 Surface \"plastic\" \"Kd\" [0.25] \"specularcolor\" [0 1 0]\n"
         "Sphere [1 -1 1 360] WorldEnd\n");
-    for (const Outcome* outcome : {&bare, &bracketed}) {
+    for (const ReadOutcome* outcome : {&bare, &bracketed}) {
         EXPECT_THAT(outcome->messages, IsEmpty());
         const Options& o = outcome->scene().options;
         EXPECT_EQ(o.width, 320);
@@ -45,7 +45,7 @@ TEST(ReadForms, BracketsAreOptionalRoundFixedNumbersOfValues) {
 }
 
 TEST(ReadForms, WhatDoesNotTurnNeedsNoAxis) {
-    const Outcome r = read_text("WorldBegin Translate 1 2 3 Rotate 0 0 0 0 Sphere 1 -1 1 360 WorldEnd");
+    const ReadOutcome r = read_text("WorldBegin Translate 1 2 3 Rotate 0 0 0 0 Sphere 1 -1 1 360 WorldEnd");
     EXPECT_THAT(r.messages, IsEmpty());
     EXPECT_EQ(r.primitive().camera_from_object[0].translation(), V3f(1, 2, 3));
     EXPECT_THAT(read_text("WorldBegin Rotate 5 0 0 0 WorldEnd").messages,
@@ -54,7 +54,7 @@ TEST(ReadForms, WhatDoesNotTurnNeedsNoAxis) {
 
 TEST(ReadForms, PinholesAreWrittenInManyWays) {
     for (const char* lens : {"", "\"-\"", "1e38 0 0", "1e+38 1 1", "22 0 0"}) {
-        const Outcome r =
+        const ReadOutcome r =
             read_text("DepthOfField 2 1 5 DepthOfField " + std::string(lens) + " WorldBegin WorldEnd");
         EXPECT_THAT(r.messages, IsEmpty()) << lens;
         EXPECT_EQ(r.scene().options.f_stop, kInfinity) << lens;
@@ -63,7 +63,7 @@ TEST(ReadForms, PinholesAreWrittenInManyWays) {
 }
 
 TEST(ReadForms, FiltersThatNobodyKnowsBecomeGaussian) {
-    const Outcome outcome = read_text("PixelFilter \"wobbly\" 3 3\nWorldBegin WorldEnd\n");
+    const ReadOutcome outcome = read_text("PixelFilter \"wobbly\" 3 3\nWorldBegin WorldEnd\n");
     EXPECT_EQ(outcome.scene().options.filter.name, "gaussian");
     EXPECT_THAT(outcome.messages,
                 ElementsAre(HasSubstr("a.rib:1:1: warning: PixelFilter: \"wobbly\" is not known")));
@@ -73,7 +73,7 @@ TEST(ReadForms, FiltersThatNobodyKnowsBecomeGaussian) {
 }
 
 TEST(ReadForms, ShadersKnowUndeclaredParameters) {
-    const Outcome outcome =
+    const ReadOutcome outcome =
         read_world("Surface \"wood\" \"grain\" 5 \"tint\" [0.5 0.25 0] \"map\" [\"a.tif\"]\n" + kSphere +
                    "Surface \"wood\" \"grain\" 6 " + kSphere + "Sphere 1 -1 1 360 \"tint\" [1 0 0]");
     EXPECT_THAT(outcome.messages, ElementsAre(HasSubstr("Sphere: \"tint\" is not declared; left out")));
@@ -85,7 +85,7 @@ TEST(ReadForms, ShadersKnowUndeclaredParameters) {
 }
 
 TEST(ReadForms, ShaderParametersHaveOneValue) {
-    const Outcome outcome =
+    const ReadOutcome outcome =
         read_world("Surface \"plastic\" \"Kd\" [0.5 0.5] \"Ks\" [0.5] \"float[2] x\" [1 2]\n" + kSphere);
     EXPECT_THAT(outcome.messages, ElementsAre(HasSubstr("Surface: \"Kd\" has 2 values, needs 1; left out")));
     const ParameterList& list = outcome.attributes().surface->parameters;
@@ -95,7 +95,7 @@ TEST(ReadForms, ShaderParametersHaveOneValue) {
 }
 
 TEST(ReadForms, OfParametersGivenTwiceTheFirstCounts) {
-    const Outcome outcome = read_world(
+    const ReadOutcome outcome = read_world(
         "Surface \"plastic\" \"Kd\" 0.5 \"uniform float Kd\" 0.25\nAttribute \"user\" \"float a\" 1 "
         "\"float a\" 2 Surface \"plastic\" \"float[2] z\" [3] \"float[2] z\" [4 5]\n" +
         kSphere);
@@ -105,13 +105,13 @@ TEST(ReadForms, OfParametersGivenTwiceTheFirstCounts) {
     EXPECT_THAT(outcome.messages[1], HasSubstr("\"z\" has 1 values, needs a multiple of 2; left out"));
     EXPECT_EQ(outcome.attributes().user.at("user").float_or("a", 0), 1);
     EXPECT_EQ(outcome.attributes().surface->parameters.float_or("z", 0), 4) << "of those that are right";
-    const Outcome plastic = read_world("Surface \"plastic\" \"Kd\" 0.5 \"Kd\" 0.25\n" + kSphere);
+    const ReadOutcome plastic = read_world("Surface \"plastic\" \"Kd\" 0.5 \"Kd\" 0.25\n" + kSphere);
     EXPECT_EQ(plastic.attributes().surface->parameters.float_or("Kd", 0), 0.5f);
 }
 
 TEST(ReadForms, TagsMayBeEmptyOrOneWithoutBrackets) {
     const std::string mesh = "SubdivisionMesh \"catmull-clark\" [4] [0 1 2 3] ";
-    const Outcome outcome =
+    const ReadOutcome outcome =
         read_world(mesh + kSquare + mesh + "[] [] [] []" + kSquare + mesh + "[] [] [] [] []" + kSquare +
                    mesh + "\"interpolateboundary\" [0 0] [] []" + kSquare);
     EXPECT_THAT(outcome.messages, IsEmpty());
@@ -124,7 +124,7 @@ TEST(ReadForms, TagsMayBeEmptyOrOneWithoutBrackets) {
 TEST(ReadForms, TagsThatDoNotFitTheMeshAreLeftOut) {
     const std::string mesh = "SubdivisionMesh \"catmull-clark\" [4] [0 1 2 3] ";
     const auto only_message = [&](const std::string& text) {
-        const Outcome outcome = read_world(mesh + text + kSquare);
+        const ReadOutcome outcome = read_world(mesh + text + kSquare);
         EXPECT_EQ(outcome.count(), 1u) << text;
         EXPECT_THAT(tags(outcome), IsEmpty()) << text;
         return outcome.messages.size() == 1 ? outcome.messages[0] : std::to_string(outcome.messages.size());
@@ -145,7 +145,7 @@ TEST(ReadForms, ParaboloidsNeedAHeight) {
 }
 
 TEST(ReadForms, PosesMayNameTheirVariablesInAnyOrder) {
-    const Outcome outcome = read_text(
+    const ReadOutcome outcome = read_text(
         "Shutter 0 1 WorldBegin MotionBegin [0 0.5 1]\n"
         "Polygon \"P\" [0 0 0 1 0 0 0 1 0] \"varying float x\" [0 0 0]\n"
         "Polygon \"varying float x\" [2 2 2] \"P\" [0 0 4 1 0 4 0 1 4]\n"
@@ -155,7 +155,7 @@ TEST(ReadForms, PosesMayNameTheirVariablesInAnyOrder) {
     EXPECT_EQ(outcome.primitive().shape_keys[1]->variables.find("P")->floats[2], 4);
     EXPECT_EQ(outcome.primitive().shape_keys[2]->variables.find("x")->floats[0], 6);
     // Between given poses, too.
-    const Outcome between = read_text(
+    const ReadOutcome between = read_text(
         "Shutter 0 0.5 WorldBegin MotionBegin [0 1]\nPolygon \"P\" [0 0 0 1 0 0 0 1 0] \"varying float x\" "
         "[0 0 0]\n"
         "Polygon \"varying float x\" [6 6 6] \"P\" [0 0 8 1 0 8 0 1 8]\nMotionEnd WorldEnd\n");
@@ -165,7 +165,7 @@ TEST(ReadForms, PosesMayNameTheirVariablesInAnyOrder) {
 
 TEST(ReadForms, MotionsThatMultiplyGetKeysWhereTheyBend) {
     // A point at distance d moves as (1 + 3 t) (d + 6 t): two keys would be off by 4.5 in the middle.
-    const Outcome outcome = read_text(
+    const ReadOutcome outcome = read_text(
         "Shutter 0 1 WorldBegin MotionBegin [0 1] Scale 1 1 1 Scale 4 4 4 MotionEnd\n"
         "MotionBegin [0 1] Translate 0 0 0 Translate 6 0 0 MotionEnd Sphere 1 -1 1 360 WorldEnd\n");
     const std::vector<M44f>& keys = outcome.primitive().camera_from_object;
@@ -185,7 +185,7 @@ TEST(ReadForms, MotionsThatMultiplyGetKeysWhereTheyBend) {
 }
 
 TEST(ReadForms, CommasAndSemicolonsAreSpace) {
-    const Outcome outcome = read_text(
+    const ReadOutcome outcome = read_text(
         "Projection \"perspective\"; Translate 0,0, 5;\nWorldBegin; Color [1;0;0];\nSphere 1 -1 1 360;Sphere "
         "2 -1 1;360\n"
         "WorldEnd;");
@@ -195,7 +195,7 @@ TEST(ReadForms, CommasAndSemicolonsAreSpace) {
 }
 
 TEST(ReadForms, StringsMayStandInSingleQuotes) {
-    const Outcome outcome =
+    const ReadOutcome outcome =
         read_text("Display \"a.tif\" 'file' 'rgba'\nWorldBegin\nSurface['matte']" + kSphere + "\nWorldEnd");
     EXPECT_THAT(outcome.messages, IsEmpty());
     EXPECT_EQ(outcome.scene().options.displays.at(0).type, "file");
@@ -206,7 +206,7 @@ TEST(ReadForms, StringsMayStandInSingleQuotes) {
 }
 
 TEST(ReadForms, ShapesWithoutPointsAreNoErrors) {
-    const Outcome outcome = read_world(
+    const ReadOutcome outcome = read_world(
         "PointsPolygons [] [] \"P\" []\nPoints \"vertex point P\" [] \"constantwidth\" [1]\n"
         "Curves \"cubic\" [] \"nonperiodic\" \"P\" []\nPointsPolygons [] [] \"P\" [] \"st\" []\n" +
         kSphere);
@@ -218,10 +218,10 @@ TEST(ReadForms, ShapesWithoutPointsAreNoErrors) {
 }
 
 TEST(ReadForms, TextsOfDosEndWithTheirSign) {
-    const Outcome outcome = read_text("WorldBegin\r\n" + kSphere + "\r\nWorldEnd\r\n\x1A");
+    const ReadOutcome outcome = read_text("WorldBegin\r\n" + kSphere + "\r\nWorldEnd\r\n\x1A");
     EXPECT_THAT(outcome.messages, IsEmpty());
     EXPECT_EQ(outcome.count(), 1u);
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

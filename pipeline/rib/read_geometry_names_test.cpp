@@ -2,14 +2,14 @@
 #include "pipeline/rib/reading_harness.h"
 #include "pipeline/rib/requests/teapot.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 TEST(ReadGeometryNames, ThreeAreKnown) {
-    const Outcome r = read_world(
+    const ReadOutcome r = read_world(
         "Geometry \"sphere\" Geometry \"cube\" \"constant color Cs\" [1 0 0] "
         "Geometry \"teapot\" \"uniform float k\" 3");
     EXPECT_THAT(r.messages, IsEmpty());
@@ -23,7 +23,7 @@ TEST(ReadGeometryNames, ThreeAreKnown) {
 }
 
 TEST(ReadGeometryNames, SphereLightsHaveTheirRadius) {
-    const Outcome r =
+    const ReadOutcome r =
         read_world("Geometry \"spherelight\" \"constant float radius\" [3] Geometry \"spherelight\"");
     EXPECT_THAT(r.messages, IsEmpty());
     ASSERT_EQ(r.count(), 2u);
@@ -32,18 +32,19 @@ TEST(ReadGeometryNames, SphereLightsHaveTheirRadius) {
 }
 
 TEST(ReadGeometryNames, OthersAreSaidOnceAndLeftOut) {
-    const Outcome r = read_world("Geometry \"dragon\"\nGeometry \"dragon\"\nSphere 1 -1 1 360");
+    const ReadOutcome r = read_world("Geometry \"dragon\"\nGeometry \"dragon\"\nSphere 1 -1 1 360");
     ASSERT_EQ(r.messages.size(), 1u);
     EXPECT_THAT(r.messages[0], HasSubstr("a.rib:2:1: warning: Geometry: no geometry \"dragon\""));
     EXPECT_EQ(r.count(), 1u);
-    const Outcome moving = read_world("MotionBegin [0 1] Geometry \"teapot\" Geometry \"teapot\" MotionEnd");
+    const ReadOutcome moving =
+        read_world("MotionBegin [0 1] Geometry \"teapot\" Geometry \"teapot\" MotionEnd");
     ASSERT_GE(moving.messages.size(), 1u);
     EXPECT_THAT(moving.messages[0], HasSubstr("does not deform"));
 }
 
 /// Volume inside by the divergence theorem: each side of the cube adds a third of its area, half a unit away.
 TEST(ReadGeometryNames, CubesFaceOutwards) {
-    const Outcome r = read_world("Geometry \"cube\"");
+    const ReadOutcome r = read_world("Geometry \"cube\"");
     const auto& mesh = std::get<PolygonMesh>(r.primitive().shape().topology);
     const std::vector<float>& P = r.primitive().shape().variables.find("P")->floats;
     const auto corner = [&](size_t i) {
@@ -59,7 +60,7 @@ TEST(ReadGeometryNames, CubesFaceOutwards) {
 }
 
 TEST(Teapot, HasItsSizeAndSymmetry) {
-    const auto patches = teapot_patches();
+    const auto patches = rib::teapot_patches();
     ASSERT_EQ(patches.size(), 32u);
     V3f least(9, 9, 9), most(-9, -9, -9);
     for (const auto& patch : patches)
@@ -77,4 +78,4 @@ TEST(Teapot, HasItsSizeAndSymmetry) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

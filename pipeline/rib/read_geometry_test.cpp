@@ -1,7 +1,7 @@
 /// Every primitive, valid and with arrays of the wrong lengths.
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -17,7 +17,7 @@ std::string some_points(int count) {
 }
 
 TEST(ReadGeometry, QuadricsTakeTheirNumbers) {
-    const Outcome r = read_world(
+    const ReadOutcome r = read_world(
         "Sphere 1 -1 1 360 Cone 2 1 180 Cylinder [1 -1 1 90] Hyperboloid 1 0 0 1 0 1 360 "
         "Hyperboloid [1 0 0] [1 0 1] 360 Paraboloid 1 0 1 360 Disk 0 1 360 "
         "Torus 2 .5 0 360 270 \"Cs\" [1 0 0 0 1 0 0 0 1 1 1 1] \"uniform float k\" 3");
@@ -31,12 +31,12 @@ TEST(ReadGeometry, QuadricsTakeTheirNumbers) {
 }
 
 TEST(ReadGeometry, PolygonsOfEveryKind) {
-    const Outcome r = read_world("Polygon " + kQuad + "GeneralPolygon [4 3] " + some_points(7) +
-                                 "PointsPolygons [3 3] [0 1 2 0 2 3] " + kQuad +
-                                 "\"uniform color c\" [1 0 0 0 1 0] "
-                                 "\"facevarying float f\" [1 2 3 4 5 6] \"constant float k\" [1] "
-                                 "PointsGeneralPolygons [2 1] [4 3 3] [0 1 2 3 4 5 6 0 1 2] " +
-                                 some_points(7));
+    const ReadOutcome r = read_world("Polygon " + kQuad + "GeneralPolygon [4 3] " + some_points(7) +
+                                     "PointsPolygons [3 3] [0 1 2 0 2 3] " + kQuad +
+                                     "\"uniform color c\" [1 0 0 0 1 0] "
+                                     "\"facevarying float f\" [1 2 3 4 5 6] \"constant float k\" [1] "
+                                     "PointsGeneralPolygons [2 1] [4 3 3] [0 1 2 3 4 5 6 0 1 2] " +
+                                     some_points(7));
     EXPECT_THAT(r.messages, IsEmpty());
     ASSERT_EQ(r.count(), 4u);
     const auto& general = std::get<PolygonMesh>(r.primitive(1).shape().topology);
@@ -50,7 +50,7 @@ TEST(ReadGeometry, PolygonsOfEveryKind) {
 
 TEST(ReadGeometry, SubdivisionMeshesAndTheFormsOfTags) {
     const std::string mesh = "[4] [0 1 2 3] ";
-    const Outcome r = read_world(
+    const ReadOutcome r = read_world(
         "SubdivisionMesh \"catmull-clark\" " + mesh + kQuad + "SubdivisionMesh \"bilinear\" " + mesh +
         "[\"interpolateboundary\"] [0 0] [] [] " + kQuad + "SubdivisionMesh \"catmull-clark\" " + mesh +
         "[\"crease\" \"corner\" \"hole\"] [3 1 1 1 1 0] [0 1 2 3 0] [2 4] " + kQuad +
@@ -79,7 +79,7 @@ TEST(ReadGeometry, PatchesOfEveryBasisStepAndWrap) {
         const std::string basis = std::string("Basis \"") + name + "\" " + std::to_string(step) + " \"" +
                                   name + "\" " + std::to_string(step) + " ";
         const int nu = 4 + 2 * step, nv = 4 * step;  // three patches along u, four round v
-        const Outcome r =
+        const ReadOutcome r =
             read_world(basis + "Patch \"bicubic\" " + some_points(16) + "PatchMesh \"bicubic\" " +
                        std::to_string(nu) + " \"nonperiodic\" " + std::to_string(nv) + " \"periodic\" " +
                        some_points(nu * nv) + "\"varying float a\" [" +
@@ -106,9 +106,10 @@ TEST(ReadGeometry, PatchesOfEveryBasisStepAndWrap) {
 }
 
 TEST(ReadGeometry, BilinearMeshesAndBasesOfOnesOwn) {
-    const Outcome r = read_world("PatchMesh \"bilinear\" 3 \"periodic\" 2 \"nonperiodic\" " + some_points(6) +
-                                 "Basis [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1] 2 \"bezier\" 3 Patch \"bicubic\" " +
-                                 some_points(16) + "Patch \"bilinear\" " + some_points(4));
+    const ReadOutcome r =
+        read_world("PatchMesh \"bilinear\" 3 \"periodic\" 2 \"nonperiodic\" " + some_points(6) +
+                   "Basis [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1] 2 \"bezier\" 3 Patch \"bicubic\" " +
+                   some_points(16) + "Patch \"bilinear\" " + some_points(4));
     EXPECT_THAT(r.messages, IsEmpty());
     EXPECT_EQ(std::get<PatchMesh>(r.primitive(0).shape().topology).patches_u(), 3);
     const auto& patch = std::get<PatchMesh>(r.primitive(1).shape().topology);
@@ -118,7 +119,7 @@ TEST(ReadGeometry, BilinearMeshesAndBasesOfOnesOwn) {
 }
 
 TEST(ReadGeometry, MeshesOfUnknownWrapsAreOpen) {
-    const Outcome r = read_world("PatchMesh \"bilinear\" 3 \"nowrap\" 2 \"periodic\" " + some_points(6));
+    const ReadOutcome r = read_world("PatchMesh \"bilinear\" 3 \"nowrap\" 2 \"periodic\" " + some_points(6));
     EXPECT_THAT(r.messages, ElementsAre(HasSubstr("a.rib:2:1: warning: PatchMesh: \"nowrap\" is neither "
                                                   "periodic nor nonperiodic; taken as nonperiodic")));
     ASSERT_EQ(r.count(), 1u);
@@ -128,7 +129,7 @@ TEST(ReadGeometry, MeshesOfUnknownWrapsAreOpen) {
 
 TEST(ReadGeometry, OfVariablesGivenTwiceTheFirstCounts) {
     const auto s_of = [](const std::string& variables) {
-        const Outcome r = read_world("Polygon " + kQuad + variables);
+        const ReadOutcome r = read_world("Polygon " + kQuad + variables);
         EXPECT_THAT(r.messages, ElementsAre(HasSubstr("warning: Polygon: \"s\" is given twice")))
             << variables;
         return r.primitive().shape().variables.find("s")->floats.at(0);
@@ -139,7 +140,7 @@ TEST(ReadGeometry, OfVariablesGivenTwiceTheFirstCounts) {
 }
 
 TEST(ReadGeometry, TextureCoordinatesComeApart) {
-    const Outcome r = read_world("Polygon " + kQuad + "\"st\" [0 1 2 3 4 5 6 7]");
+    const ReadOutcome r = read_world("Polygon " + kQuad + "\"st\" [0 1 2 3 4 5 6 7]");
     const ParameterList& variables = r.primitive().shape().variables;
     EXPECT_EQ(variables.find("st"), nullptr);
     EXPECT_THAT(variables.find("s")->floats, ElementsAre(0, 2, 4, 6));
@@ -147,7 +148,7 @@ TEST(ReadGeometry, TextureCoordinatesComeApart) {
 }
 
 TEST(ReadGeometry, FormsOfPoints) {
-    const Outcome r = read_world(
+    const ReadOutcome r = read_world(
         "Patch \"bilinear\" \"Pz\" [5 6 7 8] Patch \"bilinear\" \"Pw\" [0 0 0 1 2 0 0 2 0 1 0 1 1 1 0 1] "
         "Polygon \"Pw\" [2 0 0 2 0 1 0 1 0 0 1 1]");
     EXPECT_THAT(r.messages, IsEmpty());
@@ -159,7 +160,7 @@ TEST(ReadGeometry, FormsOfPoints) {
 }
 
 TEST(ReadGeometry, LargeIndicesAreExact) {
-    const Outcome r = read_world("PointsPolygons [3] [0 1 16777217] " + kQuad);
+    const ReadOutcome r = read_world("PointsPolygons [3] [0 1 16777217] " + kQuad);
     EXPECT_THAT(r.messages, ElementsAre(HasSubstr("vertex 16777217 is outside")));
 }
 
@@ -211,7 +212,7 @@ TEST(ReadGeometry, InvalidPrimitivesAreSkipped) {
         "PatchMesh \"bicubic\" 5 \"nonperiodic\" 4 \"nonperiodic\" " + some_points(20),
         "PatchMesh \"bicubic\" 4 \"periodic\" 4 \"nonperiodic\" " + some_points(16)};
     for (const std::string& text : invalid) {
-        const Outcome r = read_world("AttributeBegin\n" + text + "\nAttributeEnd\n" + kSphere);
+        const ReadOutcome r = read_world("AttributeBegin\n" + text + "\nAttributeEnd\n" + kSphere);
         ASSERT_FALSE(r.messages.empty()) << text;
         EXPECT_THAT(r.messages.back(), HasSubstr("; primitive skipped")) << text;
         EXPECT_THAT(r.messages.back(), HasSubstr("a.rib:3:")) << text;
@@ -226,7 +227,7 @@ TEST(ReadGeometry, WrongVariablesAreLeftOut) {
          {"\"Cs\" [1 0]", "\"N\" [0 0 1 0 0 1 0 0 1]", "\"st\" [0 0 1 1]", "\"facevarying float f\" [1 2 3]",
           "\"varying string N\" [\"a\"]", "\"vertex color s\" [1 0 0 1 0 0 1 0 0 1 0 0]", "\"Pz\" [1 2 3 4]",
           "\"unknown\" [1]", "\"constant string c\" [1]", "\"float k\" [\"x\"]", "\"float[3] k\" [1 2]"}) {
-        const Outcome r = read_world("Polygon " + kQuad + variable);
+        const ReadOutcome r = read_world("Polygon " + kQuad + variable);
         ASSERT_EQ(r.messages.size(), 1u) << variable;
         EXPECT_THAT(r.messages[0], HasSubstr("left out")) << variable;
         ASSERT_EQ(r.count(), 1u) << variable;
@@ -252,7 +253,8 @@ TEST(ReadGeometry, VariablesOfAnotherNumberAreFitted) {
         {"\"st\" [0 0 1 0 1 1 0 1 0 0 1 0 1]", StorageClass::Varying, 6},  // of s
     };
     for (const auto& c : cases) {
-        const Outcome r = read_world("PointsPolygons [4 4] [0 1 4 3 1 2 5 4] " + some_points(6) + c.variable);
+        const ReadOutcome r =
+            read_world("PointsPolygons [4 4] [0 1 4 3 1 2 5 4] " + some_points(6) + c.variable);
         ASSERT_EQ(r.messages.size(), c.warnings) << c.variable;
         EXPECT_THAT(r.messages[0], HasSubstr("a.rib:2:")) << c.variable;
         EXPECT_THAT(r.messages[0], HasSubstr("warning: PointsPolygons: ")) << c.variable;
@@ -265,12 +267,12 @@ TEST(ReadGeometry, VariablesOfAnotherNumberAreFitted) {
 
 /// A bicubic patch's sixteen colours are of its points, whatever the class of Cs.
 TEST(ReadGeometry, PointsOfPolygonsMayBeTooMany) {
-    const Outcome r = read_world("Polygon \"P\" [0 0 0 1 0 0 1 1 0 0 1]");
+    const ReadOutcome r = read_world("Polygon \"P\" [0 0 0 1 0 0 1 1 0 0 1]");
     ASSERT_EQ(r.messages.size(), 1u);
     EXPECT_THAT(r.messages[0], HasSubstr("\"P\" has 11 values, no multiple of 3; the rest is left over"));
     ASSERT_EQ(r.count(), 1u);
     EXPECT_EQ(r.primitive().shape().variables.find("P")->floats.size(), 9u);
-    const Outcome patch = read_world("Patch \"bicubic\" " + some_points(16) + "\"Cs\" [" + [] {
+    const ReadOutcome patch = read_world("Patch \"bicubic\" " + some_points(16) + "\"Cs\" [" + [] {
         std::string colors;
         for (int i = 0; i < 48; ++i) colors += "1 ";
         return colors;
@@ -281,12 +283,12 @@ TEST(ReadGeometry, PointsOfPolygonsMayBeTooMany) {
 
 TEST(ReadGeometry, SingularAndOverflowingSpacesAreReported) {
     for (const char* transform : {"Scale 1 0 1", "Scale 1e30 1e30 1e30 Scale 1e30 1e30 1e30"}) {
-        const Outcome r = read_world("AttributeBegin " + std::string(transform) + " " + kSphere +
-                                     "AttributeEnd " + kSphere);
+        const ReadOutcome r = read_world("AttributeBegin " + std::string(transform) + " " + kSphere +
+                                         "AttributeEnd " + kSphere);
         EXPECT_THAT(r.messages, ElementsAre(HasSubstr("is singular; primitive skipped")));
         EXPECT_EQ(r.count(), 1u);
     }
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

@@ -2,7 +2,7 @@
 #include "core/scene/camera.h"
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -10,7 +10,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 TEST(Resources, SaveAndRestoreAttributes) {
-    const Outcome outcome = read_world(
+    const ReadOutcome outcome = read_world(
         "AttributeBegin Color 1 0 0 Translate 5 0 0 "
         "Resource \"red\" \"attributes\" \"string operation\" \"save\" AttributeEnd "
         "Resource \"red\" \"attributes\" \"string operation\" \"restore\" \"string subset\" \"shading\" " +
@@ -32,7 +32,7 @@ TEST(Resources, SaveAndRestoreAttributes) {
 TEST(Resources, EndWithTheirBlocks) {
     const std::string save = "Resource \"a\" \"attributes\" \"string operation\" \"save\" ";
     const std::string restore = "Resource \"a\" \"attributes\" \"string operation\" \"restore\" ";
-    const Outcome outcome =
+    const ReadOutcome outcome =
         read_world("ResourceBegin Color 1 0 0 " + save + "ResourceEnd\n" + restore +
                    "\nResourceEnd\nResource \"b\" \"surface\" Resource \"a\" \"attributes\"\n" + kSphere);
     EXPECT_THAT(outcome.messages,
@@ -44,7 +44,7 @@ TEST(Resources, EndWithTheirBlocks) {
 }
 
 TEST(ScopedSpaces, EndWithTheBlock) {
-    const Outcome outcome = read_world(
+    const ReadOutcome outcome = read_world(
         "AttributeBegin Translate 1 0 0 ScopedCoordinateSystem \"here\" "
         "AttributeBegin Translate 1 0 0 ScopedCoordinateSystem \"here\" "
         "Identity CoordSysTransform \"here\" " +
@@ -55,7 +55,7 @@ TEST(ScopedSpaces, EndWithTheBlock) {
 }
 
 TEST(Cameras, AreNamedSpaces) {
-    const Outcome outcome = read_text(
+    const ReadOutcome outcome = read_text(
         "TransformBegin Translate 7 0 0 Camera \"side\" \"float shutteropening\" [0] TransformEnd "
         "WorldBegin CoordSysTransform \"side\" " +
         kSphere + "WorldEnd");
@@ -72,7 +72,7 @@ TEST(LaterRequests, AreTakenQuietlyWhereTheyChangeNothing) {
 TEST(LaterRequests, CommandsAreNotRun) {
     const Folder folder;
     const std::string made = folder.path() + "/made";
-    const Outcome outcome =
+    const ReadOutcome outcome =
         read_files(folder, {folder.write("a.rib", "System \"touch " + made + "\" System \"touch " + made +
                                                       "\" WorldBegin WorldEnd")});
     EXPECT_THAT(outcome.messages, ElementsAre(HasSubstr("System: commands in files are never run")));
@@ -81,7 +81,7 @@ TEST(LaterRequests, CommandsAreNotRun) {
 }
 
 TEST(HierarchicalMeshes, AreMeshesWithoutTheirEdits) {
-    const Outcome outcome = read_world(
+    const ReadOutcome outcome = read_world(
         "HierarchicalSubdivisionMesh \"catmull-clark\" [4] [0 1 2 3] [\"crease\" \"vertexedit\"] "
         "[2 1 0 2 1 2] [0 1 0 0] [3.5 1] [\"add\" \"P\"] \"P\" [0 0 0 1 0 0 1 1 0 0 1 0]");
     EXPECT_THAT(outcome.messages, ElementsAre(HasSubstr("edits of finer levels are not supported")));
@@ -93,7 +93,7 @@ TEST(HierarchicalMeshes, AreMeshesWithoutTheirEdits) {
 
 TEST(ClippingPlanes, AreKeptInCameraSpace) {
     // The plane x = 3 of a space moved by (1, 2, 3) and turned so that its x is the camera's y.
-    const Outcome outcome = read_text(
+    const ReadOutcome outcome = read_text(
         "Translate 1 2 3 Rotate 90 0 0 1 ClippingPlane 3 0 0 2 0 0 Identity "
         "ClippingPlane [0 0 5 0 0 -1] WorldBegin WorldEnd WorldBegin WorldEnd");
     ASSERT_EQ(outcome.worlds.size(), 2u);
@@ -113,7 +113,7 @@ TEST(ClippingPlanes, AreKeptInCameraSpace) {
 }
 
 TEST(ColorSamples, ColoursHaveSoManyValuesEach) {
-    const Outcome outcome = read_text(
+    const ReadOutcome outcome = read_text(
         "ColorSamples [1 0 0  0.5 0.5 0  0 1 0  0 0 1] [1 0 0 0 0 0 0 0 0 0 0 0] WorldBegin "
         "Color 1 1 0.25 0.5 Opacity [0 0 0 1] Surface \"plastic\" \"specularcolor\" [0 0 1 0] "
         "Polygon \"P\" [0 0 1 1 0 1 0 1 1] \"Cs\" [1 0 0 0  0 1 0 0  0 0 0 2] WorldEnd");
@@ -136,7 +136,7 @@ TEST(ColorSamples, OneIsEnoughAndWrongOnesAreSaid) {
 }
 
 TEST(Colors, OneNumberIsGreyAndAFourthIsLeftOut) {
-    const Outcome outcome =
+    const ReadOutcome outcome =
         read_world("Color .5 Opacity [0.25] " + kSphere + "\nColor [1 0 0 1] Opacity 1 1 1 " + kSphere);
     EXPECT_THAT(outcome.messages, ElementsAre(HasSubstr("2:1: warning: Color: one number for the colour"),
                                               HasSubstr("3:1: warning: Color: a number too many")));
@@ -147,7 +147,7 @@ TEST(Colors, OneNumberIsGreyAndAFourthIsLeftOut) {
 }
 
 TEST(ErrorMessages, ThoseThatDifferInNumbersAreShownOnce) {
-    const Outcome outcome = read_world("Sphere 1\nSphere 1 2\nDisk 1\nColor [1 2]");
+    const ReadOutcome outcome = read_world("Sphere 1\nSphere 1 2\nDisk 1\nColor [1 2]");
     EXPECT_THAT(outcome.messages, ElementsAre(HasSubstr("2:1: error: Sphere: has 1 numbers, needs 4"),
                                               HasSubstr("error: Disk: has 1 numbers, needs 3"),
                                               HasSubstr("error: Color: the colour has 2")));
@@ -155,14 +155,15 @@ TEST(ErrorMessages, ThoseThatDifferInNumbersAreShownOnce) {
 
 TEST(ErrorHandlers, DecideWhatErrorsAre) {
     const std::string wrong = "Sphere 1\n";
-    const Outcome ignored =
+    const ReadOutcome ignored =
         read_world("ErrorHandler \"ignore\" " + wrong + kSphere + "ErrorHandler \"print\"\n" + wrong);
     EXPECT_THAT(ignored.messages, ElementsAre(HasSubstr("a.rib:2:23: warning: Sphere: has 1"),
                                               HasSubstr("a.rib:4:1: error: Sphere: has 1")));
     EXPECT_EQ(ignored.count(), 1u);
 
-    const Outcome aborted = read_text(wrong + "ErrorHandler \"abort\" WorldBegin " + kSphere + "WorldEnd " +
-                                      wrong + "WorldBegin " + kSphere + "WorldEnd IfBegin \"1\"");
+    const ReadOutcome aborted =
+        read_text(wrong + "ErrorHandler \"abort\" WorldBegin " + kSphere + "WorldEnd " + wrong +
+                  "WorldBegin " + kSphere + "WorldEnd IfBegin \"1\"");
     EXPECT_EQ(aborted.worlds.size(), 1u);
     ASSERT_EQ(aborted.messages.size(), 2u);
     EXPECT_THAT(aborted.messages[1], HasSubstr("reading ends at the first error"));
@@ -171,7 +172,7 @@ TEST(ErrorHandlers, DecideWhatErrorsAre) {
 }
 
 TEST(Ris, OptionsAndAttributesMayBeValues) {
-    const Outcome outcome = read_text(
+    const ReadOutcome outcome = read_text(
         "Option \"Ri\" \"int[2] FormatResolution\" [320 200] \"float FormatPixelAspectRatio\" [1.5] "
         "\"int Frame\" [7] \"string PixelFilterName\" [\"box\"] \"float[2] PixelFilterWidth\" [3 4] "
         "\"float[2] Clipping\" [0.5 50] \"float[2] Shutter\" [0 0.5] \"float[4] ScreenWindow\" [-2 2 -1 1]\n"
@@ -219,7 +220,8 @@ TEST(Ris, HidersSayHowManySamplesWherePixelSamplesDoesNot) {
         {"FrameBegin 1 PixelSamples 3 3 FrameEnd Hider \"raytrace\" \"int maxsamples\" [16]", 4},
     };
     for (const auto& row : rows) {
-        const Outcome outcome = read_text(std::string(row.options) + " WorldBegin " + kSphere + " WorldEnd");
+        const ReadOutcome outcome =
+            read_text(std::string(row.options) + " WorldBegin " + kSphere + " WorldEnd");
         EXPECT_EQ(outcome.scene().options.samples_x, row.side) << row.options;
         EXPECT_EQ(outcome.scene().options.samples_y, row.side) << row.options;
         EXPECT_THAT(outcome.summary.without_effect, IsEmpty()) << row.options;
@@ -233,7 +235,7 @@ TEST(Settings, AperturesHaveFourNumbers) {
     const std::string declared = "\"float[4] aperture\" ";
     for (const std::string& value :
          {declared + "[6 15 .5 -.25]", std::string("\"aperture\" [6 15 .5 -.25]")}) {
-        const Outcome right = aperture(value);
+        const ReadOutcome right = aperture(value);
         EXPECT_THAT(right.messages, IsEmpty());
         EXPECT_THAT(right.summary.without_effect, IsEmpty());
         const Aperture lens = make_camera(right.scene().options).aperture;
@@ -242,13 +244,13 @@ TEST(Settings, AperturesHaveFourNumbers) {
         EXPECT_EQ(lens.roundness, .5f);
         EXPECT_EQ(lens.density, -.25f);
     }
-    const Outcome beyond = aperture(declared + "[5 0 -3 2]");
+    const ReadOutcome beyond = aperture(declared + "[5 0 -3 2]");
     EXPECT_THAT(beyond.messages, ElementsAre(HasSubstr("a.rib:2:1: warning: Hider: roundness and density")));
     EXPECT_EQ(make_camera(beyond.scene().options).aperture.roundness, -1);
     EXPECT_EQ(make_camera(beyond.scene().options).aperture.density, 1);
     for (const char* value : {"\"float[3] aperture\" [6 0 0]", "\"aperture\" [6 0 0 0 0]",
                               "\"float[4] aperture\" [6 1e39 0 0]", "\"string aperture\" [\"six\"]"}) {
-        const Outcome wrong = aperture(value);
+        const ReadOutcome wrong = aperture(value);
         EXPECT_THAT(wrong.messages, ElementsAre(HasSubstr("a.rib:2:"))) << value;
         EXPECT_EQ(make_camera(wrong.scene().options).aperture.blades, 0) << value;
     }
@@ -261,7 +263,7 @@ TEST(Settings, AperturesHaveFourNumbers) {
 TEST(Settings, SamplemotionStopsTheShutterOfItsWorldsAlone) {
     const std::string moving = "WorldBegin MotionBegin [0 1] Translate 0 0 5 Translate 1 0 5 MotionEnd " +
                                std::string(kSphere) + " WorldEnd ";
-    const Outcome outcome =
+    const ReadOutcome outcome =
         read_text("Shutter 0 1 FrameBegin 1 Hider \"hidden\" \"samplemotion\" [0] " + moving +
                   "FrameEnd FrameBegin 2 Hider \"hidden\" \"samplemotion\" [1] " + moving + "FrameEnd");
     ASSERT_EQ(outcome.worlds.size(), 2u);
@@ -272,7 +274,7 @@ TEST(Settings, SamplemotionStopsTheShutterOfItsWorldsAlone) {
 }
 
 TEST(Settings, ThatAskForWhatIsSoInAnyCaseAreNotCalledIgnored) {
-    const Outcome outcome = read_world(
+    const ReadOutcome outcome = read_world(
         "Attribute \"dice\" \"hair\" [1] Attribute \"cull\" \"backfacing\" [0] \"hidden\" [0] "
         "Attribute \"stitch\" \"enable\" [1] Attribute \"stitch\" \"enable\" [0] "
         "Attribute \"stitch\" \"other\" [1]");
@@ -289,7 +291,7 @@ TEST(Settings, ThatAskForWhatIsSoInAnyCaseAreNotCalledIgnored) {
 }
 
 TEST(Ris, CamerasHaveTheirWindowAndPlanes) {
-    const Outcome r = read_text(
+    const ReadOutcome r = read_text(
         "Camera \"main\" \"float[4] Ri:ScreenWindow\" [-1.5 1.5 -1 1] \"float nearClip\" [.5] "
         "\"float farClip\" [50] WorldBegin WorldEnd");
     EXPECT_THAT(r.messages, ElementsAre());
@@ -307,7 +309,7 @@ TEST(Ris, WrongValuesAreSaid) {
 }
 
 TEST(Ris, SurfacesHaveTheirColourAndOneNoteSaysSo) {
-    const Outcome outcome = read_text(
+    const ReadOutcome outcome = read_text(
         "Integrator \"PxrPathTracer\" \"pt\" Light \"PxrDomeLight\" \"l\" \"float intensity\" [1]\n"
         "WorldBegin Pattern \"PxrTexture\" \"tex\" \"string filename\" [\"a.tex\"]\n"
         "Bxdf \"PxrSurface\" \"s\" \"reference float diffuseGain\" [\"x:y\"] "
@@ -327,4 +329,4 @@ TEST(Ris, SurfacesHaveTheirColourAndOneNoteSaysSo) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

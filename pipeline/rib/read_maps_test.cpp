@@ -1,9 +1,8 @@
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib {
+namespace trapeze::testing {
 namespace {
 
-using namespace testing;
 using Kind = MapRequest::Kind;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -97,7 +96,7 @@ TEST(ReadMaps, WrongOnesAreReportedAndSkipped) {
 }
 
 TEST(ReadMaps, AreOnlyCheckedWhereNobodyMakesThem) {
-    const Outcome outcome = read_text("MakeShadow \"a.z\" \"a.shd\"\nMakeShadow 1\n");
+    const ReadOutcome outcome = read_text("MakeShadow \"a.z\" \"a.shd\"\nMakeShadow 1\n");
     EXPECT_EQ(outcome.messages.size(), 1u);
     EXPECT_EQ(outcome.summary.requests.at("MakeShadow"), 2u);
 }
@@ -120,4 +119,4 @@ TEST(ReadMaps, TakeNumbersAsTheOptionOrTheirOwnColorspaceSays) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib
+}  // namespace trapeze::testing

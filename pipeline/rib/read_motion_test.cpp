@@ -1,14 +1,14 @@
 /// Motion blocks round transformations, geometry and all else.
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-Outcome read_shutter(const std::string& shutter, const std::string& text) {
+ReadOutcome read_shutter(const std::string& shutter, const std::string& text) {
     return read_text("Shutter " + shutter + "\nWorldBegin\n" + text + "\nWorldEnd\n");
 }
 
@@ -26,10 +26,11 @@ std::vector<float> radii_of(const Primitive& primitive) {
 }
 
 TEST(ReadMotion, TransformationsGetTheKeysTheyNeed) {
-    const Outcome r = read_shutter("0 1",
-                                   "MotionBegin [0 .25 1] Translate 0 0 0 Translate 1 0 0 Translate 2 0 0 "
-                                   "MotionEnd " +
-                                       kSphere);
+    const ReadOutcome r =
+        read_shutter("0 1",
+                     "MotionBegin [0 .25 1] Translate 0 0 0 Translate 1 0 0 Translate 2 0 0 "
+                     "MotionEnd " +
+                         kSphere);
     EXPECT_THAT(r.messages, IsEmpty());
     const auto& keys = r.primitive().camera_from_object;
     ASSERT_EQ(keys.size(), 5u);
@@ -42,7 +43,7 @@ TEST(ReadMotion, TransformationsGetTheKeysTheyNeed) {
 
 TEST(ReadMotion, RotationsAreSubdivided) {
     // In a picture so small that ten degrees a segment are enough (motion_paths_test.cpp has larger ones).
-    const Outcome r = read_text(
+    const ReadOutcome r = read_text(
         "Format 16 16 1 Shutter 0 1 WorldBegin MotionBegin [0 1] Rotate 0 0 0 1 Rotate 40 0 0 1 MotionEnd "
         "Translate 1 0 0 " +
         kSphere + "WorldEnd");
@@ -52,7 +53,7 @@ TEST(ReadMotion, RotationsAreSubdivided) {
 }
 
 TEST(ReadMotion, CamerasMoveTheWorld) {
-    const Outcome r = read_text(
+    const ReadOutcome r = read_text(
         "Shutter 0 1 MotionBegin [0 1] Translate 0 0 1 Translate 0 0 3 MotionEnd "
         "WorldBegin MotionBegin [0 1] Translate 0 0 0 Translate 1 0 0 MotionEnd " +
         kSphere + "WorldEnd");
@@ -62,8 +63,9 @@ TEST(ReadMotion, CamerasMoveTheWorld) {
 }
 
 TEST(ReadMotion, AClosedShutterSeesItsMoment) {
-    const Outcome r = read_shutter(".5 .5", "MotionBegin [0 1] Translate 0 0 0 Translate 2 0 0 MotionEnd " +
-                                                moving_sphere("0 1", {1, 3}));
+    const ReadOutcome r =
+        read_shutter(".5 .5", "MotionBegin [0 1] Translate 0 0 0 Translate 2 0 0 MotionEnd " +
+                                  moving_sphere("0 1", {1, 3}));
     ASSERT_EQ(r.primitive().key_count(), 1);
     EXPECT_EQ(r.primitive().camera_from_object[0].translation().x, 1);
     EXPECT_THAT(radii_of(r.primitive()), ElementsAre(2));
@@ -83,16 +85,16 @@ TEST(ReadMotion, ShapesAreResampledToEvenKeys) {
 }
 
 TEST(ReadMotion, PointsDeform) {
-    const Outcome r = read_shutter("0 1",
-                                   "MotionBegin [0 1] Polygon \"P\" [0 0 0 1 0 0 0 1 0] "
-                                   "Polygon \"P\" [0 0 4 1 0 4 0 1 4] MotionEnd");
+    const ReadOutcome r = read_shutter("0 1",
+                                       "MotionBegin [0 1] Polygon \"P\" [0 0 0 1 0 0 0 1 0] "
+                                       "Polygon \"P\" [0 0 4 1 0 4 0 1 4] MotionEnd");
     ASSERT_EQ(r.primitive().shape_keys.size(), 2u);
     EXPECT_EQ(r.primitive().shape_keys[1]->variables.find("P")->floats[2], 4);
 }
 
 TEST(ReadMotion, MovingObjectsAreResolvedOnceForAllInstances) {
-    const Outcome r = read_shutter("0 1", "ObjectBegin 1 " + moving_sphere("0 .25 1", {1, 2, 3}) +
-                                              "ObjectEnd ObjectInstance 1 ObjectInstance 1");
+    const ReadOutcome r = read_shutter("0 1", "ObjectBegin 1 " + moving_sphere("0 .25 1", {1, 2, 3}) +
+                                                  "ObjectEnd ObjectInstance 1 ObjectInstance 1");
     ASSERT_EQ(r.count(), 2u);
     ASSERT_EQ(r.primitive(0).shape_keys.size(), 5u);
     EXPECT_EQ(r.primitive(0).shape_keys, r.primitive(1).shape_keys);
@@ -116,7 +118,7 @@ TEST(ReadMotion, ColoursAndShadersAreThoseAsTheShutterOpens) {
                 {"1 1", {0, 1, 0}, 4},
                 {"3 4", {0, 1, 0}, 4}};
     for (const auto& row : rows) {
-        const Outcome r = read_shutter(row.shutter, text + kSphere);
+        const ReadOutcome r = read_shutter(row.shutter, text + kSphere);
         EXPECT_EQ(r.attributes().color, row.color) << row.shutter;
         const bool is_over = std::string_view(row.shutter) == "1 1" || row.shutter[0] == '3';
         EXPECT_EQ(r.attributes().surface->name, is_over ? "metal" : "matte") << row.shutter;
@@ -130,25 +132,26 @@ TEST(ReadMotion, ColoursAndShadersAreThoseAsTheShutterOpens) {
 }
 
 TEST(ReadMotion, AttributesMayStandBetweenEachOtherAndGeometry) {
-    const Outcome r = read_shutter("0.25 1",
-                                   "MotionBegin [0 1] Color 1 0 0 Opacity 0 0 0 Sphere 1 -1 1 360 "
-                                   "Color 0 1 0 Opacity 1 1 1 Sphere 5 -1 1 360 MotionEnd");
+    const ReadOutcome r = read_shutter("0.25 1",
+                                       "MotionBegin [0 1] Color 1 0 0 Opacity 0 0 0 Sphere 1 -1 1 360 "
+                                       "Color 0 1 0 Opacity 1 1 1 Sphere 5 -1 1 360 MotionEnd");
     EXPECT_THAT(r.messages,
                 ElementsAre(HasSubstr("a.rib:3:19: note: Color: does not move; its values as the shutter"),
                             HasSubstr("note: Opacity: does not move")));
     EXPECT_EQ(r.attributes().color, V3f(0.75f, 0.25f, 0));
     EXPECT_EQ(r.attributes().opacity, V3f(0.25f));
     EXPECT_THAT(radii_of(r.primitive()), ElementsAre(2, 5));
-    const Outcome moved = read_shutter("0 1",
-                                       "MotionBegin [0 1] Color 1 0 0 Translate 0 0 0 Color 0 0 1 "
-                                       "Translate 1 0 0 MotionEnd " +
-                                           kSphere);
+    const ReadOutcome moved = read_shutter("0 1",
+                                           "MotionBegin [0 1] Color 1 0 0 Translate 0 0 0 Color 0 0 1 "
+                                           "Translate 1 0 0 MotionEnd " +
+                                               kSphere);
     EXPECT_EQ(moved.attributes().color, V3f(1, 0, 0));
     EXPECT_EQ(moved.primitive().camera_from_object.size(), 2u);
 }
 
 /// Red and blue points, or none, in a triangle that moves by 4.
-Outcome read_colored_poses(const std::string& shutter, const std::string& first, const std::string& second) {
+ReadOutcome read_colored_poses(const std::string& shutter, const std::string& first,
+                               const std::string& second) {
     return read_shutter(shutter, "MotionBegin [0 1] Polygon \"P\" [0 0 0 1 0 0 0 1 0] " + first +
                                      " Polygon \"P\" [0 0 4 1 0 4 0 1 4] " + second + " MotionEnd");
 }
@@ -156,7 +159,7 @@ Outcome read_colored_poses(const std::string& shutter, const std::string& first,
 TEST(ReadMotion, ColoursOfPosesAreThoseAsTheShutterOpens) {
     const std::string red = "\"Cs\" [1 0 0 1 0 0 1 0 0] ", blue = "\"Cs\" [0 0 1 0 0 1 0 0 1] ",
                       one = "\"constant color Cs\" [0 0 1] ";
-    const auto color = [](const Outcome& r) {
+    const auto color = [](const ReadOutcome& r) {
         const Parameter* const cs = r.primitive().shape().variables.find("Cs");
         return cs ? V3f(cs->floats[0], cs->floats[1], cs->floats[2]) : V3f(-1);
     };
@@ -169,7 +172,7 @@ TEST(ReadMotion, ColoursOfPosesAreThoseAsTheShutterOpens) {
                 {"0 1", "", blue, V3f(-1)},
                 {"0 1", red, one, {1, 0, 0}}};
     for (const auto& row : rows) {
-        const Outcome r = read_colored_poses(row.shutter, row.first, row.second);
+        const ReadOutcome r = read_colored_poses(row.shutter, row.first, row.second);
         EXPECT_THAT(r.messages, ElementsAre(HasSubstr("note: Polygon: its colours do not move; those as the "
                                                       "shutter opens are used")));
         EXPECT_EQ(color(r), row.color) << row.shutter;
@@ -180,18 +183,19 @@ TEST(ReadMotion, ColoursOfPosesAreThoseAsTheShutterOpens) {
 }
 
 TEST(ReadMotion, WhatStaysTheSameIsNotNoted) {
-    const Outcome r = read_shutter("0 1",
-                                   "MotionBegin [0 1] Color 1 0 0 Color 1 0 0 MotionEnd MotionBegin [0 1] "
-                                   "Opacity [.5 .5 .5] Opacity .5 .5 .5 MotionEnd " +
-                                       std::string(kSphere));
+    const ReadOutcome r =
+        read_shutter("0 1",
+                     "MotionBegin [0 1] Color 1 0 0 Color 1 0 0 MotionEnd MotionBegin [0 1] "
+                     "Opacity [.5 .5 .5] Opacity .5 .5 .5 MotionEnd " +
+                         std::string(kSphere));
     EXPECT_EQ(r.attributes().color, V3f(1, 0, 0));
     EXPECT_EQ(r.attributes().opacity, V3f(0.5f));
     EXPECT_THAT(r.messages, ElementsAre(HasSubstr("note: Opacity")));  // written in two ways
-    const Outcome few =
+    const ReadOutcome few =
         read_shutter("0 1", "MotionBegin [0 1] Color 1 0 0 MotionEnd " + std::string(kSphere));
     EXPECT_EQ(few.attributes().color, V3f(1, 0, 0));
     EXPECT_THAT(few.messages, ElementsAre(HasSubstr("Color occurs 1 times for 2 times")));
-    const Outcome bad = read_shutter(
+    const ReadOutcome bad = read_shutter(
         "0 1", "MotionBegin [0 1] Color 1 Color 1 MotionEnd ErrorHandler 3 " + std::string(kSphere));
     EXPECT_THAT(bad.messages, Not(::testing::IsEmpty()));
     EXPECT_EQ(bad.count(), 1u);
@@ -212,7 +216,7 @@ TEST(ReadMotion, WrongBlocksAreReported) {
          "differ in topology"},
     };
     for (const auto& [text, message] : cases) {
-        const Outcome r = read_shutter("0 1", text + std::string("\n") + kSphere);
+        const ReadOutcome r = read_shutter("0 1", text + std::string("\n") + kSphere);
         ASSERT_FALSE(r.messages.empty()) << text;
         EXPECT_THAT(r.messages[0], HasSubstr(message));
         ASSERT_GE(r.count(), 1u) << text;
@@ -223,10 +227,10 @@ TEST(ReadMotion, WrongBlocksAreReported) {
 TEST(ReadMotion, TransformationsDoNotPileUpWithoutEnd) {
     std::string text;
     for (int i = 0; i < 1001; ++i) text += "MotionBegin [0 1] Translate 0 0 0 Translate 0 0 1 MotionEnd\n";
-    const Outcome r = read_shutter("0 1", text + kSphere);
+    const ReadOutcome r = read_shutter("0 1", text + kSphere);
     EXPECT_THAT(r.messages, ElementsAre(HasSubstr("more than 1000 motion blocks act on one transformation")));
     EXPECT_EQ(r.primitive().camera_from_object[1].translation().z, 1000);
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

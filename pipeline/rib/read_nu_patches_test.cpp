@@ -1,7 +1,7 @@
 /// NuPatch, valid and not.
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -13,7 +13,7 @@ const std::string kP = "\"P\" [0 0 0 1 0 0 2 0 0 0 1 0 1 1 0 2 1 0] ";
 const std::string kPw = "\"Pw\" [0 0 0 1 1 0 0 .5 2 0 0 1 0 1 0 1 1 1 0 .5 2 1 0 1] ";
 
 TEST(ReadNuPatches, TakePointsAndVariables) {
-    const Outcome r =
+    const ReadOutcome r =
         read_world("NuPatch " + kU + kV + kP + "\"Cs\" [1 0 0 0 1 0 0 0 1 1 1 1] NuPatch " + kU + kV + kPw +
                    "\"vertex float k\" [1 2 3 4 5 6] \"uniform float m\" 3 "
                    "NuPatch 4 2 [0 0 1 1 2 2] 0 2 2 2 [0 0 1 1] .25 .5 \"P\" "
@@ -49,7 +49,7 @@ TEST(ReadNuPatches, WhatIsWrongIsSaidWithItsPlace) {
         {"3 3 [0 0 0 nan 1 1] 0 1 " + kV + kP, ""},
     };
     for (const auto& [text, message] : wrong) {
-        const Outcome r = read_world("NuPatch " + text + "\nSphere 1 -1 1 360");
+        const ReadOutcome r = read_world("NuPatch " + text + "\nSphere 1 -1 1 360");
         ASSERT_GE(r.messages.size(), 1u) << text;
         EXPECT_THAT(r.messages[0], HasSubstr(message)) << text;
         EXPECT_THAT(r.messages[0], HasSubstr("a.rib:2:")) << text;
@@ -58,7 +58,7 @@ TEST(ReadNuPatches, WhatIsWrongIsSaidWithItsPlace) {
 }
 
 TEST(ReadNuPatches, RangesEndWithTheKnots) {
-    const Outcome r = read_world("NuPatch 3 3 [0 1 2 3 4 5] 0 9 " + kV + kP);
+    const ReadOutcome r = read_world("NuPatch 3 3 [0 1 2 3 4 5] 0 9 " + kV + kP);
     ASSERT_EQ(r.messages.size(), 1u);
     EXPECT_THAT(r.messages[0], HasSubstr("warning: NuPatch: the range of u reaches beyond the knots"));
     const auto& patch = std::get<NuPatch>(r.primitive().shape().topology);
@@ -70,9 +70,10 @@ const std::string kPatch = "NuPatch " + kU + kV + kP;
 const std::string kSquareTrim = "[1] [2] [0 0 1 2 3 4 4] [0] [4] [5] [0 1 1 0 0] [0 0 1 1 0] [1 1 1 1 1] ";
 
 TEST(ReadTrimCurves, LastUntilTheirBlockEnds) {
-    const Outcome r = read_world(kPatch + "AttributeBegin TrimCurve " + kSquareTrim + kPatch +
-                                 "Attribute \"trimcurve\" \"string sense\" [\"outside\"] TrimCurve 1 " +
-                                 kSquareTrim + kPatch + "TrimCurve [] " + kPatch + "AttributeEnd " + kPatch);
+    const ReadOutcome r =
+        read_world(kPatch + "AttributeBegin TrimCurve " + kSquareTrim + kPatch +
+                   "Attribute \"trimcurve\" \"string sense\" [\"outside\"] TrimCurve 1 " + kSquareTrim +
+                   kPatch + "TrimCurve [] " + kPatch + "AttributeEnd " + kPatch);
     EXPECT_THAT(r.messages, IsEmpty());
     ASSERT_EQ(r.count(), 5u);
     const auto patch = [&](size_t i) { return std::get<NuPatch>(r.primitive(i).shape().topology); };
@@ -85,7 +86,7 @@ TEST(ReadTrimCurves, LastUntilTheirBlockEnds) {
 }
 
 TEST(ReadTrimCurves, SeveralCurvesMakeALoop) {
-    const Outcome r = read_world(
+    const ReadOutcome r = read_world(
         "TrimCurve [2 1] [2 2 3] [0 0 1 1 0 0 1 2 2 0 0 0 1 1 1] [0 0 0] [1 2 1] [2 3 3] "
         "[0 1 1 0 0 .2 .4 .2] [0 0 1 1 0 .2 .2 .4] [1 1 1 1 1 1 .5 1] " +
         kPatch);
@@ -110,7 +111,7 @@ TEST(ReadTrimCurves, WhatIsWrongIsSaid) {
         {"[1] [2]", "the knots"},
     };
     for (const auto& [text, message] : wrong) {
-        const Outcome r = read_world("TrimCurve " + text + "\n" + kPatch);
+        const ReadOutcome r = read_world("TrimCurve " + text + "\n" + kPatch);
         ASSERT_EQ(r.messages.size(), 1u) << text;
         EXPECT_THAT(r.messages[0], HasSubstr(message)) << text;
         EXPECT_THAT(r.messages[0], HasSubstr("a.rib:2:1: error: TrimCurve")) << text;
@@ -119,4 +120,4 @@ TEST(ReadTrimCurves, WhatIsWrongIsSaid) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

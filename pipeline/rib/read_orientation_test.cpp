@@ -1,7 +1,7 @@
 /// Orientation and ReverseOrientation, in spaces that are mirrored before and afterwards.
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 using ::testing::IsEmpty;
@@ -10,7 +10,7 @@ TEST(ReadOrientation, InsideAndMirroring) {
     const std::string text = kSphere + "ReverseOrientation " + kSphere + "Orientation \"inside\" " + kSphere +
                              "Orientation \"outside\" Scale -1 1 1 " + kSphere + "Orientation \"lh\" " +
                              kSphere + "Orientation \"rh\" " + kSphere + "Orientation \"up\"";
-    const Outcome r = read_world(text);
+    const ReadOutcome r = read_world(text);
     const bool reversed[] = {false, true, true, true, false, true};
     for (size_t i = 0; i < 6; ++i) EXPECT_EQ(r.attributes(i).reverse_orientation, reversed[i]) << i;
     EXPECT_EQ(r.messages.size(), 1u);
@@ -19,7 +19,7 @@ TEST(ReadOrientation, InsideAndMirroring) {
 /// The first primitive's normals are against dPdu x dPdv in camera space: it is mirrored or its orientation
 /// does not match its space, but not both.
 bool is_reversed(const std::string& requests) {
-    const Outcome r = read_text(requests + kSphere + " WorldEnd");
+    const ReadOutcome r = read_text(requests + kSphere + " WorldEnd");
     EXPECT_THAT(r.messages, IsEmpty()) << requests;
     return r.count() > 0 && r.attributes().reverse_orientation;
 }
@@ -88,4 +88,4 @@ TEST(ReadOrientation, InstancesKeepOrTurnTheOrientationOfTheirObject) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

@@ -3,7 +3,7 @@
 
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -15,7 +15,7 @@ const std::string kUnitBound = "[-1 1 -1 1 -1 1] ";
 TEST(ReadProcedurals, ArchivesAreReadInABlock) {
     const Folder folder;
     folder.write("ball.rib", "Color 1 0 0 Translate 5 0 0 " + kSphere);
-    const Outcome outcome = read_files(
+    const ReadOutcome outcome = read_files(
         folder, {folder.write("a.rib", "WorldBegin Procedural \"DelayedReadArchive\" [\"ball.rib\"] " +
                                            kUnitBound + kSphere +
                                            "Procedural2 \"DelayedReadArchive2\" \"SimpleBound\" "
@@ -30,7 +30,7 @@ TEST(ReadProcedurals, ArchivesAreReadInABlock) {
 }
 
 TEST(ReadProcedurals, BlocksOfArchivesEndWithThem) {
-    const Outcome outcome = read_world(
+    const ReadOutcome outcome = read_world(
         "ArchiveBegin \"open\" AttributeBegin TransformBegin ArchiveEnd\n"
         "ArchiveBegin \"close\" AttributeEnd Color 1 0 0 ArchiveEnd\n"
         "AttributeBegin Color 0 1 0 Procedural \"DelayedReadArchive\" [\"open\"] " +
@@ -44,7 +44,7 @@ TEST(ReadProcedurals, BlocksOfArchivesEndWithThem) {
 }
 
 TEST(ReadProcedurals, WhatCannotBeIsRefused) {
-    const Outcome outcome =
+    const ReadOutcome outcome =
         read_world("Procedural \"DynamicLoad\" [\"a.so\" \"\"] " + kUnitBound +
                    "\nProcedural \"Magic\" [\"a\"] " + kUnitBound +
                    "\nProcedural \"DelayedReadArchive\" [\"none.rib\"] [0 1]\n"
@@ -65,7 +65,7 @@ TEST(ReadProcedurals, ProgramsRunOnlyWhereAllowed) {
     const std::string scene = "WorldBegin Procedural \"RunProgram\" [\"touch " + folder.path() +
                               "/made\" \"\"] " + kUnitBound + "Procedural \"RunProgram\" [\"touch\" \"\"] " +
                               kUnitBound + kSphere + "WorldEnd";
-    const Outcome outcome = read_files(folder, {folder.write("a.rib", scene)});
+    const ReadOutcome outcome = read_files(folder, {folder.write("a.rib", scene)});
     EXPECT_THAT(outcome.messages, ElementsAre(HasSubstr("programs are run only where that is allowed")));
     EXPECT_EQ(outcome.summary.unsupported.at("Procedural"), 2u);
     EXPECT_EQ(outcome.count(), 1u);
@@ -80,7 +80,7 @@ TEST(ReadProcedurals, WhatIsNotThereIsAnErrorWhereItWouldNotRunEither) {
                               kUnitBound + "Procedural \"RunProgram\" [\"no-such-program 1\" \"\"] " +
                               kUnitBound + "Procedural \"DynamicLoad\" [\"no-library\" \"\"] " + kUnitBound +
                               "WorldEnd";
-    const Outcome outcome = read_files(folder, {folder.write("a.rib", scene)}, options);
+    const ReadOutcome outcome = read_files(folder, {folder.write("a.rib", scene)}, options);
     EXPECT_THAT(outcome.messages,
                 ElementsAre(HasSubstr("error: Procedural: the program \"no-such-program 1\" is not found"),
                             HasSubstr("programs are run only where that is allowed"),
@@ -90,7 +90,7 @@ TEST(ReadProcedurals, WhatIsNotThereIsAnErrorWhereItWouldNotRunEither) {
 /// A program beside the scene, which is asked `requests` times.
 class RunProgram : public ::testing::Test {
   protected:
-    Outcome run(const std::string& script, const std::string& world = "") {
+    ReadOutcome run(const std::string& script, const std::string& world = "") {
         const std::string program = folder_.write("generate", "#!/bin/sh\n" + script);
         std::filesystem::permissions(program, std::filesystem::perms::owner_all);
         options_.allow_programs = true;
@@ -109,7 +109,7 @@ class RunProgram : public ::testing::Test {
 };
 
 TEST_F(RunProgram, AnswersEachRequestInABlock) {
-    const Outcome outcome =
+    const ReadOutcome outcome =
         run("while read detail data; do\n"
             "echo \"Surface \\\"$1$2_${data}_$detail\\\" Sphere 1 -1 1 360\"\n"
             "printf '\\377'\ndone",
@@ -123,7 +123,7 @@ TEST_F(RunProgram, AnswersEachRequestInABlock) {
 }
 
 TEST_F(RunProgram, MessagesNameTheAnswersPlace) {
-    const Outcome outcome = run("read line; printf '\\nSphere 1\\n\\377'; sleep 0.1");
+    const ReadOutcome outcome = run("read line; printf '\\nSphere 1\\n\\377'; sleep 0.1");
     EXPECT_THAT(
         outcome.messages,
         ElementsAre("<program generate one two>:2:1: error: Sphere: has 1 numbers, needs 4; primitive "
@@ -132,7 +132,7 @@ TEST_F(RunProgram, MessagesNameTheAnswersPlace) {
 
 /// As programs write it whose output is text.
 TEST_F(RunProgram, MayEndItsAnswersInUtf8) {
-    const Outcome outcome =
+    const ReadOutcome outcome =
         run("while read line; do echo 'Sphere 1 -1 1 360'; printf '\\303\\277'; done", ask("a") + ask("b"));
     EXPECT_THAT(outcome.messages, IsEmpty());
     EXPECT_EQ(outcome.count(), 3u);
@@ -158,7 +158,7 @@ TEST_F(RunProgram, IsNotWaitedForWhenTheReadingEnds) {
 TEST_F(RunProgram, ThatHangsIsEnded) {
     options_.program_seconds = 0.2;
     const auto begin = std::chrono::steady_clock::now();
-    const Outcome outcome = run("echo 'Sphere 1 -1 1 360'; sleep 100", ask("x") + ask("y"));
+    const ReadOutcome outcome = run("echo 'Sphere 1 -1 1 360'; sleep 100", ask("x") + ask("y"));
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
     EXPECT_THAT(outcome.messages,
                 ElementsAre(HasSubstr("Procedural: the program \"generate one two\" does not answer"),
@@ -168,22 +168,22 @@ TEST_F(RunProgram, ThatHangsIsEnded) {
 
 TEST_F(RunProgram, ThatDiesIsSaid) {
     EXPECT_THAT(run("exit 3").messages, ElementsAre(HasSubstr("ended before its answer did")));
-    const Outcome missing = run("", "Procedural \"RunProgram\" [\"no/such/program\" \"\"] " + kUnitBound +
-                                        "Procedural \"RunProgram\" [\"\" \"\"] " + kUnitBound);
+    const ReadOutcome missing = run("", "Procedural \"RunProgram\" [\"no/such/program\" \"\"] " + kUnitBound +
+                                            "Procedural \"RunProgram\" [\"\" \"\"] " + kUnitBound);
     EXPECT_THAT(missing.messages, ElementsAre(HasSubstr("cannot be started: No such file"),
                                               HasSubstr("cannot be started: there is no command")));
 }
 
 TEST_F(RunProgram, ThatFloodsIsEnded) {
     options_.max_source_bytes = 1 << 20;
-    const Outcome outcome = run("while true; do echo '# 0123456789012345678901234567890123456789'; done");
+    const ReadOutcome outcome = run("while true; do echo '# 0123456789012345678901234567890123456789'; done");
     EXPECT_THAT(outcome.messages, ElementsAre(HasSubstr("answers with too much")));
     EXPECT_EQ(outcome.count(), 1u);
 }
 
 TEST_F(RunProgram, MayAskForItself) {
     options_.most_archives_read = 20;
-    const Outcome outcome =
+    const ReadOutcome outcome =
         run("while read detail data; do\n"
             "if [ ${#data} -lt 3 ]; then\n"
             "echo \"Procedural \\\"RunProgram\\\" [\\\"generate one two\\\" \\\"x$data\\\"] [0 1 0 1 0 1]\"\n"
@@ -193,4 +193,4 @@ TEST_F(RunProgram, MayAskForItself) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

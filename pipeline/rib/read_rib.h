@@ -23,6 +23,8 @@ namespace rib {
 struct RequestText;
 }
 
+/// What a reading may use and reach, and whom it tells as it goes on. Functions are called within the
+/// reading, by its own thread; borrowed pointers outlive it.
 struct ReadOptions {
     std::optional<float> shading_rate;  ///< instead of every ShadingRate
     std::function<bool(int)>

@@ -3,7 +3,7 @@
 
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 using ::testing::AllOf;
@@ -13,8 +13,8 @@ using ::testing::IsEmpty;
 
 const std::string kBall = "Sphere 1 -1 1 360\n";
 
-Outcome read_ris_world(const std::string& text) {
-    Outcome outcome = read_text("WorldBegin\n" + text + "WorldEnd\n");
+ReadOutcome read_ris_world(const std::string& text) {
+    ReadOutcome outcome = read_text("WorldBegin\n" + text + "WorldEnd\n");
     EXPECT_LE(outcome.messages.size(), 1u);  // that surfaces of RIS are not run
     EXPECT_EQ(outcome.worlds.size(), 1u);
     return outcome;
@@ -30,7 +30,7 @@ std::string text_of(const ShaderInstance& shader, const char* name) {
 }
 
 TEST(ReadRis, PatternsGiveTheMeanOfTheirColours) {
-    const Outcome r = read_ris_world(
+    const ReadOutcome r = read_ris_world(
         "Pattern \"PxrMix\" \"m\" \"color color1\" [1 0 0] \"color color2\" [0 0 1] \"float mix\" [.5]\n"
         "Pattern \"PxrHSL\" \"h\" \"reference color inputRGB\" [\"m:resultRGB\"]\n"
         "Bxdf \"PxrDisney\" \"b\" \"reference color baseColor\" [\"h:resultRGB\"]\n" +
@@ -45,7 +45,7 @@ TEST(ReadRis, PatternsGiveTheMeanOfTheirColours) {
 }
 
 TEST(ReadRis, TexturesAreThoseOfPatterns) {
-    const Outcome r = read_ris_world(
+    const ReadOutcome r = read_ris_world(
         "Pattern \"PxrManifold2D\" \"m\" \"float scaleS\" [4] \"float scaleT\" [2]\n"
         "Pattern \"PxrTexture\" \"t\" \"string filename\" [\"wood.tex\"] \"int linearize\" [1] "
         "\"reference struct manifold\" [\"m:result\"]\n"
@@ -60,7 +60,7 @@ TEST(ReadRis, TexturesAreThoseOfPatterns) {
 }
 
 TEST(ReadRis, MetalsHaveTheColourThatTheyReflect) {
-    const Outcome r = read_ris_world(
+    const ReadOutcome r = read_ris_world(
         "Bxdf \"PxrSurface\" \"gold\" \"float diffuseGain\" [0] \"color specularFaceColor\" [1 .75 .25]\n" +
         kBall +
         "Bxdf \"PxrSurface\" \"silver\" \"float diffuseGain\" [0] \"int specularFresnelMode\" [1] "
@@ -74,7 +74,7 @@ TEST(ReadRis, MetalsHaveTheColourThatTheyReflect) {
 
 /// As RenderMan for Maya writes it: the second names the first.
 TEST(ReadRis, MaterialsAreKnownByTheirIds) {
-    const Outcome r = read_ris_world(
+    const ReadOutcome r = read_ris_world(
         "AttributeBegin Bxdf \"PxrSurface\" \"s\" \"color diffuseColor\" [.1 .2 .3] "
         "\"string __materialid\" [\"s1SG\"] AttributeEnd\n"
         "Bxdf \"PxrSurface\" \"s\" \"string __materialid\" [\"s1SG\"]\n" +
@@ -83,7 +83,7 @@ TEST(ReadRis, MaterialsAreKnownByTheirIds) {
 }
 
 TEST(ReadRis, LayersAreTheMeanOfWhatTheyAreMadeOf) {
-    const Outcome r = read_ris_world(
+    const ReadOutcome r = read_ris_world(
         "Bxdf \"LamaDiffuse\" \"d\" \"color color\" [0 .5 0]\n"
         "Bxdf \"LamaSurface\" \"s\" \"reference bxdf materialFront\" [\"d\"]\n" +
         kBall);
@@ -91,11 +91,12 @@ TEST(ReadRis, LayersAreTheMeanOfWhatTheyAreMadeOf) {
 }
 
 TEST(ReadRis, LightsShineOnAllOfTheWorld) {
-    const Outcome r = read_ris_world("Bxdf \"PxrDiffuse\" \"b\"\n" + kBall +
-                                     "AttributeBegin Translate 0 5 0 Rotate 90 1 0 0 Light \"PxrRectLight\" "
-                                     "\"key\" \"float exposure\" [3] "
-                                     "\"intensity\" [2] \"color lightColor\" [1 .5 .25] AttributeEnd\n" +
-                                     kBall);
+    const ReadOutcome r =
+        read_ris_world("Bxdf \"PxrDiffuse\" \"b\"\n" + kBall +
+                       "AttributeBegin Translate 0 5 0 Rotate 90 1 0 0 Light \"PxrRectLight\" "
+                       "\"key\" \"float exposure\" [3] "
+                       "\"intensity\" [2] \"color lightColor\" [1 .5 .25] AttributeEnd\n" +
+                       kBall);
     for (size_t i = 0; i < 2; ++i) {
         ASSERT_EQ(r.attributes(i).lights.size(), 1u);
         const ShaderInstance& light = r.attributes(i).lights[0]->shader;
@@ -107,7 +108,7 @@ TEST(ReadRis, LightsShineOnAllOfTheWorld) {
 }
 
 TEST(ReadRis, ALightOfAnObjectShinesWhereItIsPlaced) {
-    const Outcome r = read_ris_world(
+    const ReadOutcome r = read_ris_world(
         "Bxdf \"PxrDiffuse\" \"b\"\n" + kBall +
         "ObjectBegin \"lamp\" Translate 0 1 0 Light \"PxrSphereLight\" \"l\" ObjectEnd\n"
         "AttributeBegin Translate 7 0 0 ObjectInstance \"lamp\" AttributeEnd\n"
@@ -118,7 +119,7 @@ TEST(ReadRis, ALightOfAnObjectShinesWhereItIsPlaced) {
 }
 
 TEST(ReadRis, LightsOfUnknownNamesAreReportedAndDoNotShine) {
-    const Outcome r = read_ris_world(
+    const ReadOutcome r = read_ris_world(
         "Light \"PxrNoSuchLight\" \"a\"\nLight \"PxrNoSuchLight\" \"b\"\n"
         "Light \"PxrCylinderLight\" \"c\"\n" +
         kBall);
@@ -132,8 +133,8 @@ TEST(ReadRis, LightsOfUnknownNamesAreReportedAndDoNotShine) {
 /// Intensity is the radiance of a disk: half a right angle to each side of the direction has sin^2 = 1/2.
 TEST(ReadRis, DistantLightsAreDisksInTheSky) {
     const auto brightness = [](const std::string& parameters) {
-        const Outcome r = read_ris_world("Light \"PxrDistantLight\" \"sun\" " + parameters +
-                                         " Bxdf \"PxrDiffuse\" \"b\"\n" + kBall);
+        const ReadOutcome r = read_ris_world("Light \"PxrDistantLight\" \"sun\" " + parameters +
+                                             " Bxdf \"PxrDiffuse\" \"b\"\n" + kBall);
         EXPECT_EQ(r.attributes().lights.size(), 1u);
         return numbers(r.attributes().lights[0]->shader, "lightcolor")[0];
     };
@@ -143,14 +144,14 @@ TEST(ReadRis, DistantLightsAreDisksInTheSky) {
     EXPECT_NEAR(brightness("\"float angleExtent\" [90] \"int areaNormalize\" [1]"), 1.07f, 0.01f);
     EXPECT_EQ(brightness("\"float angleExtent\" [0]"), 0);
     EXPECT_EQ(brightness("\"float intensity\" [2]"), 2);
-    const Outcome r =
+    const ReadOutcome r =
         read_ris_world("Light \"PxrDistantLight\" \"sun\" \"float angleExtent\" [90] \n" + kBall);
     EXPECT_EQ(r.attributes().lights[0]->shape->kind, LightShape::Kind::Distant);
     EXPECT_NEAR(r.attributes().lights[0]->shape->angle, 0.785398f, 1e-6f);
 }
 
 TEST(ReadRis, LightsSayHowManySamplesAndShadowsTheyHave) {
-    const Outcome r = read_ris_world(
+    const ReadOutcome r = read_ris_world(
         "Light \"PxrDiskLight\" \"a\" \"int fixedSampleCount\" [9] \"int enableShadows\" [0]\n"
         "Attribute \"light\" \"int nsamples\" [40] Light \"PxrSphereLight\" \"b\"\n" +
         kBall);
@@ -172,7 +173,7 @@ TEST(ReadRis, BxdfsCastShadowsOfAreaLights) {
 }
 
 TEST(ReadRis, DomesAreTheSkyWithTheirMaps) {
-    const Outcome r = read_ris_world(
+    const ReadOutcome r = read_ris_world(
         "Light \"PxrDomeLight\" \"d\" \"float intensity\" [2] \"string lightColorMap\" [\"sky.tex\"]\n"
         "Bxdf \"PxrDiffuse\" \"b\"\n" +
         kBall);
@@ -186,7 +187,7 @@ TEST(ReadRis, DomesAreTheSkyWithTheirMaps) {
 }
 
 TEST(ReadRis, AreaLightsOfFarGeometryShineFromAfar) {
-    const Outcome dome = read_ris_world(
+    const ReadOutcome dome = read_ris_world(
         "AttributeBegin AreaLightSource \"PxrStdAreaLight\" \"a\" \"float exposure\" [1]\n"
         "Scale 2 2 2 Geometry \"envsphere\" AttributeEnd\n"
         "Bxdf \"PxrDiffuse\" \"b\"\n" +
@@ -196,7 +197,7 @@ TEST(ReadRis, AreaLightsOfFarGeometryShineFromAfar) {
     EXPECT_EQ(lights[0]->shape->kind, LightShape::Kind::Dome);
     EXPECT_EQ(numbers(lights[0]->shader, "lightcolor"), (std::vector<float>{2, 2, 2}));
 
-    const Outcome sun = read_ris_world(
+    const ReadOutcome sun = read_ris_world(
         "AttributeBegin AreaLightSource \"PxrStdAreaLight\" \"a\" \"color lightColor\" [1 .5 0]\n"
         "Geometry \"distantlight\" AttributeEnd\n"
         "Bxdf \"PxrDiffuse\" \"b\"\n" +
@@ -207,7 +208,7 @@ TEST(ReadRis, AreaLightsOfFarGeometryShineFromAfar) {
     EXPECT_EQ(numbers(light, "lightcolor"), (std::vector<float>{1, 0.5f, 0}));
     EXPECT_EQ(light.camera_from_shader[2][2], -1) << "it shines along -z of its geometry";
 
-    const Outcome disk = read_ris_world(
+    const ReadOutcome disk = read_ris_world(
         "AttributeBegin AreaLightSource \"PxrStdAreaLight\" \"a\" \"float intensity\" [20]\n"
         "Geometry \"distantlight\" \"constant float anglesubtended\" [90] AttributeEnd\n"
         "Bxdf \"PxrDiffuse\" \"b\"\n" +
@@ -217,7 +218,7 @@ TEST(ReadRis, AreaLightsOfFarGeometryShineFromAfar) {
 
 /// The light of older versions, and its geometry: a square at (3, 2, 0) in the plane y = 2.
 TEST(ReadRis, AreaLightsShineFromTheirGeometry) {
-    const Outcome r = read_ris_world(
+    const ReadOutcome r = read_ris_world(
         "AttributeBegin AreaLightSource \"PxrStdAreaLight\" \"a\" \"float exposure\" [1]\n"
         "Bxdf \"PxrLightEmission\" \"e\" Translate 3 2 0\n"
         "Polygon \"P\" [-1 0 -1  1 0 -1  1 0 1  -1 0 1]\n" +
@@ -236,7 +237,7 @@ TEST(ReadRis, AreaLightsShineFromTheirGeometry) {
 
 /// Each instance is a light of its own, also in objects of objects.
 TEST(ReadRis, AreaLightsOfObjectsShineFromTheirInstances) {
-    const Outcome r = read_ris_world(
+    const ReadOutcome r = read_ris_world(
         "ObjectBegin \"lamp\" Translate 3 2 0\n"
         "AreaLightSource \"PxrStdAreaLight\" \"a\" Polygon \"P\" [-1 0 -1  1 0 -1  1 0 1  -1 0 1]\n"
         "ObjectEnd ObjectBegin \"pair\" ObjectInstance \"lamp\" " +
@@ -258,7 +259,7 @@ TEST(ReadRis, AreaLightsOfObjectsShineFromTheirInstances) {
 }
 
 TEST(ReadRis, WhereNothingLightsBxdfsTheEyeDoes) {
-    const Outcome r = read_ris_world(kBall + "Bxdf \"PxrDiffuse\" \"b\"\n" + kBall);
+    const ReadOutcome r = read_ris_world(kBall + "Bxdf \"PxrDiffuse\" \"b\"\n" + kBall);
     EXPECT_THAT(r.attributes(0).lights, IsEmpty());
     ASSERT_EQ(r.attributes(1).lights.size(), 1u);
     EXPECT_EQ(r.attributes(1).lights[0]->shader.name, "distantlight");
@@ -273,7 +274,7 @@ TEST(ReadRis, NetworksThatBranchEverywhereEnd) {
             text += " \"reference color c" + std::to_string(k) + "\" [\"p" + std::to_string(i - 1) + ":x\"]";
         text += "\n";
     }
-    const Outcome r = read_ris_world(
+    const ReadOutcome r = read_ris_world(
         text + "Bxdf \"PxrDiffuse\" \"b\" \"reference color diffuseColor\" [\"p7:x\"]\n" + kBall);
     EXPECT_NEAR(r.attributes().color.y, 0.5f, 1e-5f);
 }
@@ -283,7 +284,7 @@ TEST(ReadRis, ThereIsAnEndOfLights) {
     for (int i = 0; i < 100; ++i) text += "Light \"PxrSphereLight\" \"l" + std::to_string(i) + "\"\n";
     text += "ObjectEnd\n";
     for (int i = 0; i < 100; ++i) text += "ObjectInstance \"o\"\n";
-    const Outcome r = read_text("WorldBegin " + text + "Bxdf \"PxrDiffuse\" \"b\" " + kBall + "WorldEnd");
+    const ReadOutcome r = read_text("WorldBegin " + text + "Bxdf \"PxrDiffuse\" \"b\" " + kBall + "WorldEnd");
     EXPECT_EQ(r.attributes().lights.size(), 64u);
     ASSERT_EQ(r.messages.size(), 2u);
     EXPECT_THAT(r.messages[0], HasSubstr("more than 64 lights"));
@@ -296,15 +297,15 @@ TEST(ReadRis, LightsAloneAreNoCauseForWarnings) {
 }
 
 TEST(ReadRis, BxdfsAreShadedOnceAPixelAtLeast) {
-    const Outcome r = read_ris_world("ShadingRate 20\n" + kBall + "Bxdf \"PxrDiffuse\" \"b\"\n" + kBall +
-                                     "ShadingRate .25\n" + kBall);
+    const ReadOutcome r = read_ris_world("ShadingRate 20\n" + kBall + "Bxdf \"PxrDiffuse\" \"b\"\n" + kBall +
+                                         "ShadingRate .25\n" + kBall);
     EXPECT_EQ(r.attributes(0).shading_rate, 20);
     EXPECT_EQ(r.attributes(1).shading_rate, 1);
     EXPECT_EQ(r.attributes(2).shading_rate, 0.25f);
 }
 
 TEST(ReadRis, OddParametersAreNoErrors) {
-    const Outcome r = read_ris_world(
+    const ReadOutcome r = read_ris_world(
         "Bxdf \"PxrSurface\" \"s\" \"int[] utilityPattern\" [] \"float presence\" 1 \"x\" [\"y\"] "
         "\"color diffuseColor\" .1 .2 .3 \"color specularFaceColor\" [0]\n" +
         kBall);
@@ -315,4 +316,4 @@ TEST(ReadRis, OddParametersAreNoErrors) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

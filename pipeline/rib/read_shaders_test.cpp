@@ -1,7 +1,7 @@
 /// Shaders in layers, area lights.
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -9,7 +9,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 TEST(ReadShaders, LayersAreGatheredInOrder) {
-    const Outcome r = read_world(
+    const ReadOutcome r = read_world(
         "Surface \"matte\" "
         "ShaderLayer \"surface\" \"pattern\" \"a\" \"float freq\" [3] "
         "Translate 1 0 0 "
@@ -37,7 +37,7 @@ TEST(ReadShaders, LayersAreGatheredInOrder) {
 }
 
 TEST(ReadShaders, ALayerOfTheSameNameIsReplacedAndBlocksRestoreLayers) {
-    const Outcome r = read_world(
+    const ReadOutcome r = read_world(
         "ShaderLayer \"displacement\" \"one\" \"a\" AttributeBegin "
         "ShaderLayer \"displacement\" \"two\" \"b\" ShaderLayer \"displacement\" \"three\" \"a\" " +
         kSphere + "AttributeEnd " + kSphere + "Displacement \"plain\" " + kSphere);
@@ -51,7 +51,7 @@ TEST(ReadShaders, ALayerOfTheSameNameIsReplacedAndBlocksRestoreLayers) {
 }
 
 TEST(ReadShaders, NullAndNoNameAreNoShader) {
-    const Outcome r = read_world(
+    const ReadOutcome r = read_world(
         "Displacement \"dented\" Atmosphere \"fog\" Surface \"matte\" AttributeBegin "
         "Displacement \"null\" Atmosphere \"null\" Surface \"null\" " +
         kSphere + "AttributeEnd Displacement \"\" Surface \"\" " + kSphere);
@@ -65,7 +65,7 @@ TEST(ReadShaders, NullAndNoNameAreNoShader) {
 }
 
 TEST(ReadShaders, WrongLayersAreReported) {
-    const Outcome r = read_world(
+    const ReadOutcome r = read_world(
         "ShaderLayer \"light\" \"spot\" \"a\"\n"
         "ConnectShaderLayers \"surface\" \"a\" \"b\" \"c\" \"d\"\n"
         "ShaderLayer \"surface\" \"matte\"\n" +
@@ -81,13 +81,13 @@ TEST(ReadShaders, WrongLayersAreReported) {
 TEST(ReadShaders, LayersEndSomewhere) {
     std::string text;
     for (int i = 0; i < 80; ++i) text += "ShaderLayer \"surface\" \"matte\" \"" + std::to_string(i) + "\"\n";
-    const Outcome r = read_world(text + kSphere);
+    const ReadOutcome r = read_world(text + kSphere);
     EXPECT_EQ(r.attributes().surface->earlier_layers.size(), 63u);
     EXPECT_FALSE(r.messages.empty());
 }
 
 TEST(ReadShaders, AreaLightsShineFromTheShapesThatFollow) {
-    const Outcome r = read_world(
+    const ReadOutcome r = read_world(
         "AttributeBegin Translate 0 2 0 AreaLightSource \"pointlight\" 5 \"intensity\" [3] "
         "Polygon \"P\" [0 0 0  4 0 0  4 2 0] " +
         kSphere + "AttributeEnd Illuminate 5 1 AreaLightSource \"\" 6 " + kSphere +
@@ -113,13 +113,13 @@ TEST(ReadShaders, AreaLightsTakeTheirSamplesFromAttributes) {
     const auto samples = [](const std::string& attribute) {
         return read_world(attribute + " Sides 1 AreaLightSource \"arealight\" 5 " + kSphere + kSphere);
     };
-    const Outcome given = samples("Attribute \"light\" \"int nsamples\" [64]");
+    const ReadOutcome given = samples("Attribute \"light\" \"int nsamples\" [64]");
     EXPECT_THAT(given.messages, IsEmpty());
     EXPECT_EQ(given.attributes(1).lights[0]->shape->samples, 64);
     EXPECT_FALSE(given.attributes(1).lights[0]->shape->two_sided);
     EXPECT_EQ(samples("Attribute \"light\" \"int samples\" [3]").attributes(1).lights[0]->shape->samples, 3);
     for (const char* wrong : {"0", "-7", "100000"}) {
-        const Outcome r = samples(std::string("Attribute \"light\" \"int nsamples\" [") + wrong + "]");
+        const ReadOutcome r = samples(std::string("Attribute \"light\" \"int nsamples\" [") + wrong + "]");
         EXPECT_THAT(r.messages, ElementsAre(HasSubstr("must be 1 to 2048; 16 are used")));
         EXPECT_EQ(r.attributes(1).lights[0]->shape->samples, 16);
     }
@@ -127,25 +127,25 @@ TEST(ReadShaders, AreaLightsTakeTheirSamplesFromAttributes) {
 
 TEST(ReadShaders, AreaLightsThatNothingSwitchesShineOnAll) {
     const std::string block = "AttributeBegin AreaLightSource \"pointlight\" 5 " + kSphere + "AttributeEnd ";
-    const Outcome stray = read_world(block + kSphere +
-                                     "AttributeBegin AreaLightSource \"pointlight\" 6 "
-                                     "AttributeEnd");
+    const ReadOutcome stray = read_world(block + kSphere +
+                                         "AttributeBegin AreaLightSource \"pointlight\" 6 "
+                                         "AttributeEnd");
     EXPECT_EQ(stray.attributes(0).lights.size(), 1u);
     ASSERT_EQ(stray.attributes(1).lights.size(), 1u);  // the second light has no shape
     EXPECT_EQ(stray.attributes(1).lights[0]->handle, "5");
     EXPECT_THAT(stray.messages, ElementsAre(HasSubstr("light \"5\" is of a block")));
 
-    const Outcome switched =
+    const ReadOutcome switched =
         read_world(block + kSphere + "AttributeBegin Illuminate 5 1 " + kSphere + "AttributeEnd");
     EXPECT_EQ(switched.attributes(1).lights.size(), 0u);
     EXPECT_EQ(switched.attributes(2).lights.size(), 1u);
-    const Outcome open = read_world(kSphere + "AreaLightSource \"pointlight\" 5 " + kSphere + kSphere);
+    const ReadOutcome open = read_world(kSphere + "AreaLightSource \"pointlight\" 5 " + kSphere + kSphere);
     EXPECT_EQ(open.attributes(0).lights.size(), 0u);
     EXPECT_EQ(open.attributes(2).lights.size(), 1u);
 }
 
 TEST(ReadShaders, LightsMayLackHandles) {
-    const Outcome r = read_world(
+    const ReadOutcome r = read_world(
         "LightSource \"pointlight\" \"intensity\" 3 \"from\" [1 2 3] "
         "LightSource \"ambientlight\" \"intensity\" [2] "
         "LightSource \"distantlight\" \"fill\" \"intensity\" [4] "
@@ -163,4 +163,4 @@ TEST(ReadShaders, LightsMayLackHandles) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

@@ -1,7 +1,7 @@
 /// Constructive solid geometry as trees of solids.
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 using ::testing::HasSubstr;
@@ -13,7 +13,7 @@ struct Node {
     int parent, place;
 };
 
-void expect_solids(const Outcome& r, const std::vector<Node>& expected) {
+void expect_solids(const ReadOutcome& r, const std::vector<Node>& expected) {
     const std::vector<Solid>& solids = r.scene().solids;
     ASSERT_EQ(solids.size(), expected.size());
     for (size_t i = 0; i < solids.size(); ++i) {
@@ -26,9 +26,9 @@ void expect_solids(const Outcome& r, const std::vector<Node>& expected) {
 const std::string kLeaf = "SolidBegin \"primitive\" " + kSphere + "SolidEnd ";
 
 TEST(ReadSolids, TreesAndTheirSurfaces) {
-    const Outcome r = read_world("SolidBegin \"difference\" SolidBegin \"union\" " + kLeaf + kLeaf +
-                                 "SolidEnd SolidBegin \"primitive\" " + kSphere + "Color 1 0 0 " + kSphere +
-                                 "SolidEnd SolidEnd " + kSphere);
+    const ReadOutcome r = read_world("SolidBegin \"difference\" SolidBegin \"union\" " + kLeaf + kLeaf +
+                                     "SolidEnd SolidBegin \"primitive\" " + kSphere + "Color 1 0 0 " +
+                                     kSphere + "SolidEnd SolidEnd " + kSphere);
     EXPECT_THAT(r.messages, IsEmpty());
     expect_solids(r, {{Operation::Difference, -1, 0},
                       {Operation::Union, 0, 0},
@@ -42,7 +42,7 @@ TEST(ReadSolids, TreesAndTheirSurfaces) {
 }
 
 TEST(ReadSolids, InstancesHaveSolidsOfTheirOwn) {
-    const Outcome r =
+    const ReadOutcome r =
         read_world("ObjectBegin 1 SolidBegin \"intersection\" " + kLeaf + kLeaf +
                    "SolidEnd ObjectEnd ObjectInstance 1 "
                    "SolidBegin \"union\" ObjectInstance 1 SolidEnd "
@@ -63,8 +63,9 @@ TEST(ReadSolids, InstancesHaveSolidsOfTheirOwn) {
 }
 
 TEST(ReadSolids, ObjectsInSolidsOfObjects) {
-    const Outcome r = read_world("ObjectBegin 1 " + kLeaf + "ObjectEnd ObjectBegin 2 SolidBegin \"union\" " +
-                                 kLeaf + "ObjectInstance 1 SolidEnd ObjectEnd ObjectInstance 2");
+    const ReadOutcome r =
+        read_world("ObjectBegin 1 " + kLeaf + "ObjectEnd ObjectBegin 2 SolidBegin \"union\" " + kLeaf +
+                   "ObjectInstance 1 SolidEnd ObjectEnd ObjectInstance 2");
     EXPECT_THAT(r.messages, IsEmpty());
     expect_solids(r, {{Operation::Union, -1, 0}, {Operation::Primitive, 0, 0}, {Operation::Primitive, 0, 1}});
     ASSERT_EQ(r.count(), 2u);
@@ -73,14 +74,14 @@ TEST(ReadSolids, ObjectsInSolidsOfObjects) {
 }
 
 TEST(ReadSolids, MovingSurfacesBelongToTheirSolid) {
-    const Outcome r = read_world(
+    const ReadOutcome r = read_world(
         "SolidBegin \"primitive\" MotionBegin [0 1] Sphere 1 -1 1 360 Sphere 2 -2 2 360 MotionEnd SolidEnd");
     EXPECT_THAT(r.messages, IsEmpty());
     EXPECT_EQ(r.primitive().solid, 0);
 }
 
 TEST(ReadSolids, SurfacesWithoutAPrimitiveSolidAreSolidsWithAWarning) {
-    const Outcome r = read_world("SolidBegin \"difference\" " + kSphere + kSphere + "SolidEnd");
+    const ReadOutcome r = read_world("SolidBegin \"difference\" " + kSphere + kSphere + "SolidEnd");
     ASSERT_EQ(r.messages.size(), 1u);
     EXPECT_THAT(r.messages[0], HasSubstr("SolidBegin \"primitive\""));
     expect_solids(
@@ -88,7 +89,7 @@ TEST(ReadSolids, SurfacesWithoutAPrimitiveSolidAreSolidsWithAWarning) {
 }
 
 TEST(ReadSolids, WrongOnesAreReported) {
-    const Outcome r = read_text(
+    const ReadOutcome r = read_text(
         "SolidBegin \"union\"\nWorldBegin\nSolidBegin \"xor\"\n"
         "SolidBegin \"primitive\"\nSolidBegin \"union\"\nSolidEnd\nSolidEnd\nWorldEnd\n");
     ASSERT_EQ(r.messages.size(), 4u);
@@ -99,4 +100,4 @@ TEST(ReadSolids, WrongOnesAreReported) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

@@ -1,7 +1,7 @@
 /// Blocks, options, attributes, lights, objects.
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -9,7 +9,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 TEST(ReadState, AttributesAreRestoredWithTheirBlocks) {
-    const Outcome r = read_world(
+    const ReadOutcome r = read_world(
         "Color 1 0 0 AttributeBegin Color [0 1 0] Opacity .5 .5 .5 Sides 1 Matte 1 ShadingRate 4 "
         "ShadingInterpolation \"smooth\" Translate 1 2 3 Surface \"matte\" " +
         kSphere + "AttributeEnd " + kSphere);
@@ -30,13 +30,14 @@ TEST(ReadState, AttributesAreRestoredWithTheirBlocks) {
 }
 
 TEST(ReadState, TransformBlocksRestoreTheTransformationAlone) {
-    const Outcome r = read_world("TransformBegin Translate 1 0 0 Color 1 0 0 TransformEnd " + kSphere);
+    const ReadOutcome r = read_world("TransformBegin Translate 1 0 0 Color 1 0 0 TransformEnd " + kSphere);
     EXPECT_EQ(r.primitive().camera_from_object[0], M44f());
     EXPECT_EQ(r.attributes().color, V3f(1, 0, 0));
 }
 
 TEST(ReadState, PrimitivesThatLookAlikeShareTheirAttributes) {
-    const Outcome r = read_world(kSphere + kSphere + "Color 1 0 0 " + kSphere + "Scale -1 1 1 " + kSphere);
+    const ReadOutcome r =
+        read_world(kSphere + kSphere + "Color 1 0 0 " + kSphere + "Scale -1 1 1 " + kSphere);
     ASSERT_EQ(r.count(), 4u);
     EXPECT_EQ(r.primitive(0).attributes, r.primitive(1).attributes);
     EXPECT_NE(r.primitive(1).attributes, r.primitive(2).attributes);
@@ -44,7 +45,7 @@ TEST(ReadState, PrimitivesThatLookAlikeShareTheirAttributes) {
 }
 
 TEST(ReadState, OptionsInAWorldAreTakenForIt) {
-    const Outcome r = read_text(
+    const ReadOutcome r = read_text(
         "WorldBegin Translate 1 0 0\nFormat 10 20 1\nProjection \"perspective\" \"fov\" 30\n"
         "Imager \"background\" \"color\" [1 0 0]\n" +
         kSphere + "WorldEnd WorldBegin WorldEnd");
@@ -62,7 +63,7 @@ TEST(ReadState, OptionsInAWorldAreTakenForIt) {
 }
 
 TEST(ReadState, OptionsOfArchivesAndTheShutterAreFrozenInWorlds) {
-    const Outcome r = read_text(
+    const ReadOutcome r = read_text(
         "ArchiveBegin \"other\" Format 10 20 1 Display \"b.exr\" \"exr\" \"rgb\" ArchiveEnd\n"
         "WorldBegin ReadArchive \"other\" Shutter 0 1 WorldEnd");
     ASSERT_EQ(r.messages.size(), 3u);
@@ -73,7 +74,7 @@ TEST(ReadState, OptionsOfArchivesAndTheShutterAreFrozenInWorlds) {
 }
 
 TEST(ReadState, AFrameAspectRatioBelowZeroIsThePictures) {
-    const Outcome r = read_text(
+    const ReadOutcome r = read_text(
         "FrameAspectRatio 2 Option \"Ri\" \"float FrameAspectRatio\" [-1] \"int[2] FormatResolution\" [30 "
         "20] "
         "WorldBegin WorldEnd");
@@ -83,7 +84,7 @@ TEST(ReadState, AFrameAspectRatioBelowZeroIsThePictures) {
 }
 
 TEST(ReadState, CameraOptions) {
-    const Outcome r = read_text(
+    const ReadOutcome r = read_text(
         "Format 320 200 1.5 FrameAspectRatio 2 ScreenWindow -1 1 -.5 .5 CropWindow .25 .75 0 1\n"
         "Clipping 1 100 DepthOfField 2.8 .1 5 Shutter 0 .5 PixelSamples 3 2 PixelFilter \"sinc\" 4 5\n"
         "Exposure 2 2.2 Quantize \"rgba\" 255 0 255 .5 Display \"a.exr\" \"openexr\" \"rgba\"\n"
@@ -118,7 +119,7 @@ TEST(ReadState, CameraOptions) {
 
 /// Parameters of shaders cannot be called so.
 TEST(ReadState, TheBackgroundsColorAndAlphaHaveOtherNamesInItsShader) {
-    const Outcome r = read_text(
+    const ReadOutcome r = read_text(
         "Imager \"background\" \"color color\" [.1 .2 .3] \"float alpha\" [0] WorldBegin WorldEnd\n"
         "Imager \"background\" \"color\" [.5 .5 .6] WorldBegin WorldEnd");
     EXPECT_THAT(r.messages, IsEmpty());
@@ -133,7 +134,7 @@ TEST(ReadState, TheBackgroundsColorAndAlphaHaveOtherNamesInItsShader) {
 }
 
 TEST(ReadState, OptionsAreRestoredWithTheirFrames) {
-    const Outcome r = read_text(
+    const ReadOutcome r = read_text(
         "FrameBegin 3 Format 8 8 1 Translate 0 0 1 WorldBegin WorldEnd FrameEnd\n"
         "FrameBegin 4 WorldBegin WorldEnd FrameEnd");
     EXPECT_THAT(r.messages, IsEmpty());
@@ -149,7 +150,7 @@ TEST(ReadState, OptionsAreRestoredWithTheirFrames) {
 TEST(ReadState, OnlyWantedFramesAreDelivered) {
     ReadOptions options;
     options.wants_frame = [](int frame) { return frame == 2; };
-    const Outcome r =
+    const ReadOutcome r =
         read_text("FrameBegin 1 WorldBegin " + kSphere + "WorldEnd FrameEnd FrameBegin 2 WorldBegin " +
                       kSphere + "WorldEnd FrameEnd",
                   options);
@@ -160,8 +161,8 @@ TEST(ReadState, OnlyWantedFramesAreDelivered) {
 }
 
 TEST(ReadState, WorldsAreApart) {
-    const Outcome r = read_text("Translate 0 0 1 WorldBegin Color 1 0 0 Translate 1 0 0 " + kSphere +
-                                "WorldEnd WorldBegin " + kSphere + kSphere + "WorldEnd");
+    const ReadOutcome r = read_text("Translate 0 0 1 WorldBegin Color 1 0 0 Translate 1 0 0 " + kSphere +
+                                    "WorldEnd WorldBegin " + kSphere + kSphere + "WorldEnd");
     EXPECT_THAT(r.messages, IsEmpty());
     ASSERT_EQ(r.worlds.size(), 2u);
     EXPECT_EQ(r.worlds[0].primitives.size(), 1u);
@@ -172,18 +173,18 @@ TEST(ReadState, WorldsAreApart) {
 
 TEST(ReadState, SeveralFilesAreOneStream) {
     const Folder folder;
-    const Outcome r = read_files(folder, {folder.write("a.rib", "WorldBegin Color 1 0 0"),
-                                          folder.write("b.rib", kSphere + "Sphere 1\nWorldEnd")});
+    const ReadOutcome r = read_files(folder, {folder.write("a.rib", "WorldBegin Color 1 0 0"),
+                                              folder.write("b.rib", kSphere + "Sphere 1\nWorldEnd")});
     EXPECT_THAT(r.messages,
                 ElementsAre("b.rib:1:19: error: Sphere: has 1 numbers, needs 4; primitive skipped"));
     EXPECT_EQ(r.attributes().color, V3f(1, 0, 0));
 }
 
 TEST(ReadState, TransformAndIdentityAreRelativeToTheWorld) {
-    const Outcome r = read_text("Translate 0 0 9 WorldBegin Translate 1 0 0 Identity " + kSphere +
-                                "Transform [1 0 0 0 0 1 0 0 0 0 1 0 5 0 0 1] " + kSphere +
-                                "CoordinateSystem \"here\" Identity CoordSysTransform \"here\" " + kSphere +
-                                "CoordSysTransform \"nowhere\" " + kSphere + "WorldEnd");
+    const ReadOutcome r = read_text("Translate 0 0 9 WorldBegin Translate 1 0 0 Identity " + kSphere +
+                                    "Transform [1 0 0 0 0 1 0 0 0 0 1 0 5 0 0 1] " + kSphere +
+                                    "CoordinateSystem \"here\" Identity CoordSysTransform \"here\" " +
+                                    kSphere + "CoordSysTransform \"nowhere\" " + kSphere + "WorldEnd");
     EXPECT_EQ(r.primitive(0).camera_from_object[0].translation(), V3f(0, 0, 9));
     EXPECT_EQ(r.primitive(1).camera_from_object[0].translation(), V3f(5, 0, 9));
     EXPECT_EQ(r.primitive(2).camera_from_object[0].translation(), V3f(5, 0, 9));
@@ -194,7 +195,7 @@ TEST(ReadState, TransformAndIdentityAreRelativeToTheWorld) {
 }
 
 TEST(ReadState, LightsAreSwitchedWithinBlocks) {
-    const Outcome r = read_world(
+    const ReadOutcome r = read_world(
         "LightSource \"pointlight\" 1 \"intensity\" [2] AttributeBegin LightSource \"ambientlight\" "
         "\"fill\" " +
         kSphere + "Illuminate 1 0 " + kSphere + "AttributeEnd " + kSphere + "Illuminate \"fill\" 1 " +
@@ -213,7 +214,7 @@ TEST(ReadState, LightsAreSwitchedWithinBlocks) {
 }
 
 TEST(ReadState, LightsEndWithTheirWorldAndNotBefore) {
-    const Outcome r = read_text(
+    const ReadOutcome r = read_text(
         "LightSource \"ambientlight\" 1 WorldBegin LightSource \"ambientlight\" 2 WorldEnd "
         "WorldBegin Illuminate 1 0 Illuminate 2 0 " +
         kSphere + "WorldEnd");
@@ -223,7 +224,7 @@ TEST(ReadState, LightsEndWithTheirWorldAndNotBefore) {
 
 TEST(ReadState, DisplacementBoundsAreCameraSpaceLengths) {
     const std::string bound = "Attribute \"displacementbound\" \"sphere\" [.5] \"coordinatesystem\" ";
-    const Outcome r =
+    const ReadOutcome r =
         read_text("Scale 3 3 3 WorldBegin Scale 2 2 2 CoordinateSystem \"two\" Scale 2 2 2 " + bound +
                   "[\"object\"] " + kSphere + bound + "[\"world\"] " + kSphere + bound + "[\"camera\"] " +
                   kSphere + bound + "[\"two\"] " + kSphere + bound + "[\"what\"] " + kSphere + "WorldEnd");
@@ -233,7 +234,7 @@ TEST(ReadState, DisplacementBoundsAreCameraSpaceLengths) {
 }
 
 TEST(ReadState, OtherAttributesAreKeptAsTheyLook) {
-    const Outcome r = read_world(
+    const ReadOutcome r = read_world(
         "Attribute \"identifier\" \"name\" [\"ball\"] Attribute \"visibility\" \"camera\" [0] "
         "Attribute \"dice\" \"rasterorient\" 0 Attribute \"user\" \"string who\" \"me\" "
         "\"unheard\" [1 2] " +
@@ -247,7 +248,7 @@ TEST(ReadState, OtherAttributesAreKeptAsTheyLook) {
 }
 
 TEST(ReadState, ShaderParameters) {
-    const Outcome r = read_world(
+    const ReadOutcome r = read_world(
         "Declare \"tint\" \"uniform color\" Translate 1 0 0 Surface \"plastic\" \"Kd\" .5 "
         "\"tint\" 1 0 0 \"uniform float[2] pair\" [3 4] \"unknown\" [1] \"tint\" \"text\" "
         "\"tint\" [1 2] \"opacity\" [0.25] " +
@@ -263,10 +264,11 @@ TEST(ReadState, ShaderParameters) {
 }
 
 TEST(ReadState, ObjectsMayHoldInstancesOfOthers) {
-    const Outcome r = read_world("ObjectBegin 1 Translate 1 0 0 Color 0 0 1 " + kSphere + "ObjectEnd " +
-                                 "ObjectBegin 2 ObjectInstance 1 Surface \"metal\" Translate 0 2 0 "
-                                 "ObjectInstance 1 ObjectInstance 2 ObjectEnd Surface \"matte\" Color 1 0 0 "
-                                 "Translate 0 0 5 ObjectInstance 2 ObjectInstance 1");
+    const ReadOutcome r =
+        read_world("ObjectBegin 1 Translate 1 0 0 Color 0 0 1 " + kSphere + "ObjectEnd " +
+                   "ObjectBegin 2 ObjectInstance 1 Surface \"metal\" Translate 0 2 0 "
+                   "ObjectInstance 1 ObjectInstance 2 ObjectEnd Surface \"matte\" Color 1 0 0 "
+                   "Translate 0 0 5 ObjectInstance 2 ObjectInstance 1");
     EXPECT_THAT(r.messages,
                 ElementsAre(::testing::HasSubstr("ObjectInstance: an object in its own definition")));
     ASSERT_EQ(r.count(), 3u);
@@ -279,7 +281,7 @@ TEST(ReadState, ObjectsMayHoldInstancesOfOthers) {
 }
 
 TEST(ReadState, InstancesTakeTheirOwnAttributes) {
-    const Outcome r =
+    const ReadOutcome r =
         read_text("WorldBegin ObjectBegin 1 Translate 1 0 0 " + kSphere + "Color 0 1 0 Surface \"metal\" " +
                   kSphere + "ObjectEnd ObjectBegin \"two\" " + kSphere +
                   "ObjectEnd Color 1 0 0 Opacity .5 .5 .5 Surface \"matte\" "
@@ -296,18 +298,19 @@ TEST(ReadState, InstancesTakeTheirOwnAttributes) {
 }
 
 TEST(ReadState, InstancesShareTheirShapes) {
-    const Outcome r = read_world("ObjectBegin 1 " + kSphere + "ObjectEnd ObjectInstance 1 ObjectInstance 1");
+    const ReadOutcome r =
+        read_world("ObjectBegin 1 " + kSphere + "ObjectEnd ObjectInstance 1 ObjectInstance 1");
     EXPECT_EQ(r.primitive(0).shape_keys[0], r.primitive(1).shape_keys[0]);
 }
 
 TEST(ReadState, InstancesBeyondTheLimitAreLeftOut) {
     ReadOptions options;
     options.most_instanced_primitives = 3;
-    const Outcome r = read_world("ObjectBegin 1 " + kSphere + kSphere +
-                                     "ObjectEnd ObjectInstance 1 ObjectInstance 1 "
-                                     "ObjectInstance 1 " +
-                                     kSphere,
-                                 options);
+    const ReadOutcome r = read_world("ObjectBegin 1 " + kSphere + kSphere +
+                                         "ObjectEnd ObjectInstance 1 ObjectInstance 1 "
+                                         "ObjectInstance 1 " +
+                                         kSphere,
+                                     options);
     EXPECT_EQ(r.count(), 3u);
     EXPECT_THAT(r.messages, ElementsAre(::testing::HasSubstr("instances make more than 3 primitives")));
 }
@@ -339,11 +342,11 @@ TEST(ReadState, MisplacedRequestsAreSkipped) {
                              "Basis \"bezier\" 9 \"bezier\" 3",
                              "ShadingRate -1",
                              "Declare \"x\" \"uniform colour\""}) {
-        const Outcome r = read_world(std::string(text) + "\n" + kSphere);
+        const ReadOutcome r = read_world(std::string(text) + "\n" + kSphere);
         EXPECT_EQ(r.messages.size(), 1u) << text << ::testing::PrintToString(r.messages);
         EXPECT_EQ(r.count(), 1u) << text;
     }
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

@@ -12,7 +12,7 @@
 
 #include "pipeline/rib/read_rib.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 
 /// A folder that goes when the test ends.
 class Folder {
@@ -39,7 +39,7 @@ class Folder {
     std::filesystem::path path_;
 };
 
-struct Outcome {
+struct ReadOutcome {
     std::vector<Scene> worlds;
     std::vector<std::string> messages;  ///< places without the folder
     ReadSummary summary;
@@ -50,9 +50,9 @@ struct Outcome {
     size_t count() const { return worlds.empty() ? 0 : scene().primitives.size(); }
 };
 
-inline Outcome read_files(const Folder& folder, const std::vector<std::string>& files,
-                          const ReadOptions& options = {}) {
-    Outcome outcome;
+inline ReadOutcome read_files(const Folder& folder, const std::vector<std::string>& files,
+                              const ReadOptions& options = {}) {
+    ReadOutcome outcome;
     Diagnostics diagnostics([&](const Diagnostic& diagnostic) {
         std::string message = to_string(diagnostic);
         const std::string prefix = folder.path() + "/";
@@ -64,16 +64,16 @@ inline Outcome read_files(const Folder& folder, const std::vector<std::string>& 
     return outcome;
 }
 
-inline Outcome read_text(const std::string& text, const ReadOptions& options = {}) {
+inline ReadOutcome read_text(const std::string& text, const ReadOptions& options = {}) {
     const Folder folder;
     return read_files(folder, {folder.write("a.rib", text)}, options);
 }
 
 /// Text inside a world, on one line.
-inline Outcome read_world(const std::string& text, const ReadOptions& options = {}) {
+inline ReadOutcome read_world(const std::string& text, const ReadOptions& options = {}) {
     return read_text("WorldBegin\n" + text + "\nWorldEnd\n", options);
 }
 
 inline const std::string kSphere = "Sphere 1 -1 1 360 ";
 
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

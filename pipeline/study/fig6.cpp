@@ -89,7 +89,7 @@ void study_fig6(StudyBench& bench, StudyResult& result) {
         kBlockSide, kBlockSide));
     Figures rmse(paper::kMethods.size()), together(paper::kMethods.size());
     for (size_t effect = 0; effect < std::size(kEffects); ++effect) {
-        const StudyScene scene = car_scene_with(bench, effect != 1, effect != 0);
+        const StudyScene scene = car_scene_with(bench, effect != 0, effect != 1);
         const SharedFrame frame = bench.frame(scene);
         const Image reference = reference_of(bench, frame, scene.label);
         const std::vector<Image> pictures = pictures_of(bench, frame, scene.label);

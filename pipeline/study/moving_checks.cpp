@@ -80,8 +80,8 @@ std::vector<StudyCheck> checks_of_kd_variants(const std::string& scene, const Kd
     const auto text = [](double part) { return fmt::format("{:.1f} % fewer", 100 * part); };
     return {{scene + ": planes for the middle of the shutter save tests (at least 6 %)",
              text(paper::kMiddlePlanesSave), text(fewer), fewer >= kHalf * paper::kMiddlePlanesSave},
-            {scene + ": the weight by time saves duplicates (at least 3.5 %)", text(paper::kTimeWeightSaves),
-             text(saved), saved >= kHalf * paper::kTimeWeightSaves}};
+            {scene + ": the weight by time saves duplicates of what moves across planes (at least 3.5 %)",
+             text(paper::kTimeWeightSaves), text(saved), saved >= kHalf * paper::kTimeWeightSaves}};
 }
 
 StudyCheck check_of_refitting(const std::string& scene, std::span<const double> refitted,

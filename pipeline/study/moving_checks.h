@@ -31,7 +31,7 @@ std::vector<StudyCheck> checks_of_kd_tree(const std::string& scene, const paper:
 /// A k-d tree's figures with one choice made otherwise.
 struct KdVariants {
     double tests, tests_at_opening, tests_at_closing;  ///< a ray, with planes for the middle, and the ends
-    double duplicates, duplicates_unweighted;
+    double duplicates, duplicates_unweighted;          ///< of what moves across planes
 };
 /// Checks that planes for the middle of the shutter, and the weight by time, are worth what the paper says.
 std::vector<StudyCheck> checks_of_kd_variants(const std::string& scene, const KdVariants& here);

@@ -38,6 +38,15 @@ inline constexpr TreeRatios kMbkd[kMovingScenes] = {
     kNoFigures,
     {kNoFigure, kNoFigure, kNoFigure, kNoFigure, 2.91 / 5.33, .23 / .14, 55.0 / 42, kNoFigure},
     {kNoFigure, kNoFigure, kNoFigure, kNoFigure, kNoFigure, kNoFigure, 87.0 / 65, kNoFigure}};
+/// What moves across planes: the part of primitives that are duplicated for it, and the parts of building
+/// that duplicating them and propagating the duplicates take [Yang17 table 2].
+struct Incoherence {
+    double quantity, duplicating, propagating;
+};
+inline constexpr Incoherence kNoIncoherence = {kNoFigure, kNoFigure, kNoFigure};
+inline constexpr Incoherence kIncoherence[kMovingScenes] = {{.105, .179, .059}, {.053, .217, .015},
+                                                            kNoIncoherence,     kNoIncoherence,
+                                                            {.139, .234, .155}, kNoIncoherence};
 /// What planes at the middle of the shutter save of tests, beside those at its ends, and what the weight by
 /// time saves of duplicates [Yang17 sec. 5].
 inline constexpr double kMiddlePlanesSave = .12, kTimeWeightSaves = .07;

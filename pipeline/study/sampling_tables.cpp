@@ -82,7 +82,7 @@ void study_table1(StudyBench& bench, StudyResult& result) {
     result.notes.push_back("All at " + rate_text(rate) + " samples a pixel; the paper's at 13x13.");
     Times here(kMethodCount, std::vector<double>(3));
     for (size_t effect = 0; effect < 3; ++effect) {
-        const StudyScene scene = car_scene_with(bench, effect != 1, effect != 0);
+        const StudyScene scene = car_scene_with(bench, effect != 0, effect != 1);
         const SharedFrame frame = bench.frame(scene);
         set_column(here, effect, totals(bench.measure(frame, scene, kPaperMethods, {rate})));
     }

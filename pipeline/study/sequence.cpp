@@ -7,9 +7,9 @@
 #include <bit>
 
 #include "pipeline/compare/value_text.h"
-#include "pipeline/frame/regions.h"
-#include "pipeline/frame/resolve_tiles.h"
-#include "pipeline/frame/stopwatch.h"
+#include "pipeline/frame/cost/stopwatch.h"
+#include "pipeline/frame/tiles/resolve_tiles.h"
+#include "pipeline/frame/tiles/tile_order.h"
 
 namespace trapeze {
 namespace {
@@ -84,7 +84,8 @@ void follow(const StudyBench& bench, const Sequence& sequence, size_t row, Seque
         bench.go_on();
         const Grids& grids = *sequence.frames[f];
         Stopwatch watch;
-        if (!tree || !tree->update(grids, sequence.changed.empty() ? nullptr : &sequence.changed[f]))
+        const bool told = kSequenceRows[row].told && !sequence.changed.empty();
+        if (!tree || !tree->update(grids, told ? &sequence.changed[f] : nullptr))
             tree = sampler.prepare(*sequence.context, grids);
         times.update[row][f].push_back(watch.lap());
         if (tiles.empty()) tiles = samples_of(sequence, sampler, tree->tile_side());

@@ -9,6 +9,7 @@
 #include "pipeline/compare/comparison.h"
 #include "pipeline/compare/results_json.h"
 #include "pipeline/compare/value_text.h"
+#include "pipeline/frame/make_context.h"
 #include "pipeline/frame/render_frame.h"
 #include "pipeline/rib/read_rib.h"
 #include "sample/sampler_list.h"

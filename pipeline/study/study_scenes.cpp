@@ -14,7 +14,7 @@ StudyScene car_scene(const StudyBench& bench) {
     return bench.scene("Car", "car-study", 3);
 }
 
-StudyScene car_scene_with(const StudyBench& bench, bool defocus, bool motion) {
+StudyScene car_scene_with(const StudyBench& bench, bool motion, bool defocus) {
     StudyScene scene = car_scene(bench);
     if (!motion) scene.parameters.motion = 0;
     if (!defocus) scene.parameters.defocus = 0;

@@ -20,7 +20,7 @@ std::array<StudyScene, 4> frames_of_the_paper(const StudyBench& bench);
 /// The counterpart of Car, with five or more micropolygons a pixel.
 StudyScene car_scene(const StudyBench& bench);
 /// The same with one of its effects or both, named so ("Car, both").
-StudyScene car_scene_with(const StudyBench& bench, bool defocus, bool motion);
+StudyScene car_scene_with(const StudyBench& bench, bool motion, bool defocus);
 /// The scene of the controlled study [Hou10 figure 8].
 StudyScene halberd_scene(const StudyBench& bench);
 

@@ -80,13 +80,13 @@ HWY_INLINE void seen_places(D d, const V (&least)[2], const V (&greatest)[2], V 
 
 /// Sets the intervals of columns first to last, on the lens (or in the pixel) and in time; false where the
 /// micropolygon is in none. s and t are the two axes of DualIntervals.
-template <bool kMoves, bool kLens>
+template <bool kMotion, bool kLens>
 HWY_INLINE bool find_intervals(const DualCorners& corners, const DualConstants& c, int first, int last,
                                DualIntervals& to) {
     const hn::CappedTag<float, DualIntervals::kPadding> d;
     using V = hn::Vec<decltype(d)>;
     const V infinite = hn::Set(d, std::numeric_limits<float>::infinity()), slack = hn::Set(d, c.slack);
-    constexpr int kEnds = kMoves ? 2 : 1;
+    constexpr int kEnds = kMotion ? 2 : 1;
     bool any = false;
     for (int i = first; i <= last; i += static_cast<int>(hn::Lanes(d))) {
         // Both sides of the pixels; s: from one rim of the lens to the other (or from side to side), over all
@@ -110,7 +110,7 @@ HWY_INLINE bool find_intervals(const DualCorners& corners, const DualConstants& 
                     s_least[0] = hn::Min(s_least[0], a), s_greatest[0] = hn::Max(s_greatest[0], a);
                     s_least[1] = hn::Min(s_least[1], b), s_greatest[1] = hn::Max(s_greatest[1], b);
                 }
-                if constexpr (kMoves) {
+                if constexpr (kMotion) {
                     t_least[end] = hn::Min(t_least[end], least);
                     t_greatest[end] = hn::Max(t_greatest[end], greatest);
                 }
@@ -118,7 +118,7 @@ HWY_INLINE bool find_intervals(const DualCorners& corners, const DualConstants& 
         V s_min, s_max;
         seen_places(d, s_least, s_greatest, slack, &s_min, &s_max);
         auto seen = hn::Le(s_min, s_max);
-        if constexpr (kMoves) {
+        if constexpr (kMotion) {
             V t_min, t_max;
             seen_places(d, t_least, t_greatest, slack, &t_min, &t_max);
             seen = hn::And(seen, hn::Le(t_min, t_max));

@@ -20,10 +20,12 @@ namespace trapeze {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-template <bool kMoves, bool kLens>
+/// Both are template arguments because they decide what is computed for each vertex: without motion one end,
+/// without a lens no circle of confusion.
+template <bool kMotion, bool kLens>
 class DualMesh {
   public:
-    static constexpr int kEnds = kMoves ? 2 : 1;
+    static constexpr int kEnds = kMotion ? 2 : 1;
 
     DualMesh(const DualRaster& raster, const GridBound& bound)
         : camera_(raster.camera),
@@ -48,6 +50,8 @@ class DualMesh {
     using V = hn::Vec<D>;
     using VI = hn::Vec<DI>;
 
+    /// Positions at both ends of the part, and each vertex's box in the image plane over both and over the
+    /// whole lens. A vertex nearer than the grid's safe depth has no such box: it may be seen anywhere.
     HWY_INLINE void place_vertices(const SegmentPart& part, int i) {
         const D d;
         const V infinite = hn::Set(d, std::numeric_limits<float>::infinity()), one = hn::Set(d, 1.0f);
@@ -59,7 +63,7 @@ class DualMesh {
             V p[3];
             for (int axis = 0; axis < 3; ++axis) {
                 p[axis] = hn::LoadU(d, vertices_.plane(part.segment, axis) + i);
-                if constexpr (kMoves)
+                if constexpr (kMotion)
                     p[axis] = position_at(p[axis], hn::LoadU(d, vertices_.plane(part.segment, 3 + axis) + i),
                                           hn::Set(d, end == 0 ? part.from : part.to));
                 hn::StoreU(p[axis], d, &mesh_.at[end][axis][i]);
@@ -89,6 +93,8 @@ class DualMesh {
         }
     }
 
+    /// A micropolygon's vertices follow from its vertex 00 in row order, so that lanes of micropolygons are
+    /// plain loads of shifted rows.
     template <class Combine>
     V of_corners(const std::vector<float>& plane, int i, const Combine& combine) const {
         const D d;
@@ -103,6 +109,8 @@ class DualMesh {
         return of_corners(mesh_.max[axis], i, [](V a, V b) HWY_ATTR { return hn::Max(a, b); });
     }
 
+    /// Boxes of micropolygons in pixels of the tile, from those of their vertices. Lanes that are ends of
+    /// rows, out of depth or beside the tile get x1 = -1, by which raster_part() skips them.
     bool make_boxes() {
         const D d;
         const DI di;

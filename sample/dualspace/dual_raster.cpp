@@ -18,8 +18,10 @@ HWY_BEFORE_NAMESPACE();
 namespace trapeze {
 namespace HWY_NAMESPACE {
 
-/// One grid in a tile, micropolygon by micropolygon.
-template <bool kMoves, bool kLens>
+/// One grid in a tile, micropolygon by micropolygon. First the mesh is placed for a part of the shutter, then
+/// each micropolygon's intervals of columns and rows of pixels are found, then the samples in both are tested
+/// against it.
+template <bool kMotion, bool kLens>
 class GridDual {
   public:
     GridDual(DualRaster& raster, const BoundedGrid& grid, SampleStats& stats)
@@ -35,7 +37,7 @@ class GridDual {
           stats_(stats) {
         // A perspective slack's far part counts per depth, which is no more than what `near` has.
         constants_.slack = camera_.perspective ? 3 * bound_.slack.near : bound_.slack.far;
-        constants_.parts = kMoves ? std::max(segments_, kLens ? raster.parts : 1) : 1;
+        constants_.parts = kMotion ? std::max(segments_, kLens ? raster.parts : 1) : 1;
     }
 
     void run() {
@@ -55,6 +57,7 @@ class GridDual {
     /// Candidates are tested when there are so many.
     static constexpr size_t kFull = 512;
 
+    /// Corners are numbered as the predicate has them: 00, 10, 01, 11.
     int corner_of(int quad, int corner) const {
         return quad + (corner & 1) + (corner >> 1) * vertices_.row_length();
     }
@@ -76,7 +79,7 @@ class GridDual {
         const SlotBound bound =
             grid_.bounds.slot_bound(grid_.index, scratch_.part, {-kRim, -kRim, kRim, kRim});
         if (pixels_within(bound.box, raster_.samples.pixels).empty()) return false;
-        return DualMesh<kMoves, kLens>(raster_, bound_).place(within);
+        return DualMesh<kMotion, kLens>(raster_, bound_).place(within);
     }
 
     /// All micropolygons that show in the tile during the part: place() has left their boxes in pixels, both
@@ -93,8 +96,8 @@ class GridDual {
     void raster_quad(const PixelRect& box) {
         DualIntervals &columns = scratch_.columns, &rows = scratch_.rows;
         if (bound_.boundable) {
-            if (!find_intervals<kMoves, kLens>(corners(0), constants_, box.x0, box.x1 - 1, columns)) return;
-            if (!find_intervals<kMoves, kLens>(corners(1), constants_, box.y0, box.y1 - 1, rows)) return;
+            if (!find_intervals<kMotion, kLens>(corners(0), constants_, box.x0, box.x1 - 1, columns)) return;
+            if (!find_intervals<kMotion, kLens>(corners(1), constants_, box.y0, box.y1 - 1, rows)) return;
         } else {
             columns.see_all(box.x0, box.x1 - 1), rows.see_all(box.y0, box.y1 - 1);
         }
@@ -103,10 +106,12 @@ class GridDual {
         test_candidates();
     }
 
+    /// For find_intervals(), along x (0) or y (1). With an orthographic camera w is 1: slopes do not spread
+    /// with depth.
     DualCorners corners(int axis) const {
         const DualMeshScratch& mesh = scratch_.mesh;
         DualCorners c;
-        for (int end = 0; end < DualMesh<kMoves, kLens>::kEnds; ++end)
+        for (int end = 0; end < DualMesh<kMotion, kLens>::kEnds; ++end)
             for (int corner = 0; corner < 4; ++corner) {
                 const auto at = static_cast<size_t>(corner_of(quad_, corner));
                 c.at[end][corner] = mesh.at[end][axis][at];
@@ -125,8 +130,8 @@ class GridDual {
         const size_t pixel_of_row = static_cast<size_t>(row) * static_cast<size_t>(width_);
         for (int column = begin; column < end; ++column) {
             const int first_t =
-                          kMoves ? std::max({first_bin_, columns.first_t[column], rows.first_t[row]}) : 0,
-                      last_t = kMoves ? std::min({last_bin_, columns.last_t[column], rows.last_t[row]}) : 0;
+                          kMotion ? std::max({first_bin_, columns.first_t[column], rows.first_t[row]}) : 0,
+                      last_t = kMotion ? std::min({last_bin_, columns.last_t[column], rows.last_t[row]}) : 0;
             if (first_t > last_t || columns.first_s[column] > columns.last_s[column]) continue;
             ++stats_.nodes_visited;
             const size_t pixel = pixel_of_row + static_cast<size_t>(column);
@@ -138,7 +143,7 @@ class GridDual {
             for (size_t word = 0; word < words; ++word) {
                 uint64_t set =
                     (u[end_u + word] & ~u[first_u + word]) & (v[end_v + word] & ~v[first_v + word]);
-                if constexpr (kMoves)
+                if constexpr (kMotion)
                     set &= t[static_cast<size_t>(last_t + 1) * words + word] &
                            ~t[static_cast<size_t>(first_t) * words + word];
                 add_candidates(pixel, word, set);
@@ -146,6 +151,8 @@ class GridDual {
         }
     }
 
+    /// Candidates of many pixels are collected before they are tested, so that vectors are full where each
+    /// pixel has a few.
     HWY_INLINE void add_candidates(size_t pixel, size_t word, uint64_t set) {
         const size_t first = pixel * static_cast<size_t>(raster_.samples.samples_per_pixel) + word * 64;
         for (; set != 0; set &= set - 1)
@@ -154,6 +161,9 @@ class GridDual {
         if (count_ >= kFull) test_candidates();
     }
 
+    /// The predicate on a vector of candidates: their rays are gathered, the micropolygon is the same for
+    /// all. A sample whose time is in another segment is left out here; it meets the micropolygon in that
+    /// segment's parts.
     void test_candidates() {
         const D d;
         const DI di;
@@ -166,7 +176,7 @@ class GridDual {
             const VI ray = hn::Mul(hn::LoadU(di, reinterpret_cast<const int32_t*>(samples + i)), ray_size);
             auto wanted = hn::FirstN(d, count_ - i);
             V local = hn::Zero(d);
-            if constexpr (kMoves) {
+            if constexpr (kMotion) {
                 // segment_at(); neighbours of the segment are tested in their own.
                 const V scaled =
                     hn::Mul(hn::GatherIndex(d, &rays->time, ray), hn::Set(d, static_cast<float>(segments_)));
@@ -178,7 +188,7 @@ class GridDual {
             const auto vertex = [&](int component, int corner) HWY_ATTR {
                 const int at = corner_of(quad_, corner);
                 const V start = hn::Set(d, vertices_.plane(segment_, component)[at]);
-                if constexpr (kMoves)
+                if constexpr (kMotion)
                     return position_at(start, hn::Set(d, vertices_.plane(segment_, 3 + component)[at]),
                                        local);
                 else
@@ -199,6 +209,8 @@ class GridDual {
 
     static uint32_t bits_of(hn::Mask<D> mask) { return mask_bits(D(), mask); }
 
+    /// Hits are few, and are taken lane by lane. The clipping range is checked here, for a box that reaches
+    /// it may hold hits outside.
     void keep(const uint32_t* samples, hn::Mask<D> hit, V depth) {
         const D d;
         HWY_ALIGN float depths[DualIntervals::kPadding];
@@ -241,6 +253,8 @@ class GridDual {
     size_t count_ = 0;                                ///< candidates
 };
 
+/// Chooses the form for the grid and the camera: what does not move or has no lens spares the arithmetic of
+/// it.
 void raster_grid_dual(DualRaster& raster, const BoundedGrid& grid, SampleStats& stats) {
     const bool lens = raster.camera.has_lens();
     if (grid.grid.moves())
@@ -260,6 +274,8 @@ namespace trapeze {
 
 HWY_EXPORT(raster_grid_dual);
 
+/// The image plane's coordinate at the left and right (upper and lower) side of each pixel, as the camera's
+/// rays have it; padded, since vectors are read past the end.
 void DualIntervals::set_pixels(int first, int count, float plane_scale, float plane_offset) {
     const auto size = static_cast<size_t>(count + kPadding);
     for (auto* plane : {&low, &high}) plane->resize(size);
@@ -270,12 +286,14 @@ void DualIntervals::set_pixels(int first, int count, float plane_scale, float pl
     }
 }
 
+/// Where no bound is known all bins may be met: slow, but no sample is lost.
 void DualIntervals::see_all(int first, int last) {
     for (auto* plane : {&first_s, &first_t}) std::fill(plane->begin() + first, plane->begin() + last + 1, 0);
     for (auto* plane : {&last_s, &last_t})
         std::fill(plane->begin() + first, plane->begin() + last + 1, SampleMasks::kBins - 1);
 }
 
+/// Grows to the largest mesh of its thread, and is not cleared: each mesh writes what it reads.
 void DualMeshScratch::resize(size_t count) {
     for (auto& end : at)
         for (auto& plane : end) plane.resize(count);

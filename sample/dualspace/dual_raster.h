@@ -41,9 +41,12 @@ struct DualMeshScratch {
     std::vector<int32_t> x0, x1, y0,
         y1;  ///< pixels of micropolygons from the tile's corner; none where x1 < 0
 
+    /// All planes; what they held before has no meaning afterwards.
     void resize(size_t count);
 };
 
+/// A thread's memory, kept from tile to tile: the masks and intervals of the tile, the vertices and boxes of
+/// the grid that is being rasterized.
 struct DualScratch {
     SampleMasks masks;
     DualIntervals columns, rows;

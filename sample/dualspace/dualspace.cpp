@@ -14,6 +14,8 @@ namespace {
 
 constexpr int kDualTileSide = 32;
 
+/// Masks and columns are made once for a tile; then grids come one by one. A tile's side is a trade: larger
+/// ones share the set-up of micropolygons, smaller ones keep the masks in the caches.
 class DualSpace final : public Rasterizer {
   public:
     DualSpace(const VisibilityInput& input)

@@ -11,11 +11,14 @@
 
 namespace trapeze {
 
-/// The masks of a tile; memory is reused.
+/// The masks of a tile; memory is reused. Layout: [pixel][axis][bin 0 to kBins][word]. Bin 0 is empty and bin
+/// kBins is all, so that a range needs no special case at either end.
 class SampleMasks {
   public:
     /// Parts of an axis that can be told apart.
     static constexpr int kBins = 32;
+    /// Samples are binned by each axis alone; a set of bins along all three is the intersection of three
+    /// masks.
     enum Axis { kU, kV, kTime, kAxes };
 
     /// Builds the sets of all pixels of a tile. Without a lens the axes u and v are those of the place within

@@ -49,6 +49,7 @@ class EmbreeTracer {
     /// the others before it, in any order and some more than once, come to the end of `layers`. Thread-safe.
     virtual void trace(const SampleTile& samples, std::span<const uint32_t> order, SampleScratch& scratch,
                        std::vector<LooseHits::Entry>& layers) const = 0;
+    /// As the library's structure was built; holds as long as the tracer.
     virtual const BuildStats& stats() const = 0;
 };
 

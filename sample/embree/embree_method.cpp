@@ -11,7 +11,7 @@
 
 #include "sample/embree/embree_library.h"
 #include "sample/hit_lists.h"
-#include "sample/raytrace/tile_order.h"
+#include "sample/raytrace/sample_order.h"
 #include "sample/visibility.h"
 
 namespace trapeze {
@@ -38,6 +38,7 @@ std::unique_ptr<EmbreeTracer> build(const Grids& grids, const EmbreeChoices& cho
     return library->build(grids, choices);
 }
 
+/// A thread's memory for this method, found through SampleScratch::own.
 struct EmbreeOwn {
     std::vector<uint32_t> wanted;          ///< samples
     std::vector<LooseHits::Entry> layers;  ///< hits of some rays that are not opaque, as Embree finds them
@@ -55,7 +56,7 @@ class EmbreeTraced final : public Visibility {
                  SampleStats& stats) const override {
         auto& own = scratch.own.of<EmbreeOwn>();
         own.wanted.clear();
-        for (const uint32_t sample : order_.of(samples, scratch.own.of<TileOrderScratch>()))
+        for (const uint32_t sample : order_.of(samples, scratch.own.of<SampleOrderScratch>()))
             if (scratch.window.wants(sample)) own.wanted.push_back(sample);
         scratch.nearest.assign(samples.size(), Hit{kInfinity, MicropolygonId::kNone});
         stats.rays += own.wanted.size();
@@ -95,11 +96,12 @@ class EmbreeTraced final : public Visibility {
                 scratch.found.add(sample, scratch.nearest[sample]);
     }
 
-    TileOrder order_;
+    SampleOrder order_;
     bool all_opaque_;
     std::unique_ptr<EmbreeTracer> tracer_;
 };
 
+/// The words have been checked against the table's values: what is left over is "auto".
 EmbreeMode mode_of(std::string_view name) {
     if (name == "1") return EmbreeMode::Single;
     if (name == "8") return EmbreeMode::Packet8;
@@ -112,6 +114,8 @@ EmbreeQuality quality_of(std::string_view name) {
     return name == "high" ? EmbreeQuality::High : EmbreeQuality::Medium;
 }
 
+/// The planes of clipping are limits of Embree's rays, so that no hit outside of them has to be refused
+/// later.
 EmbreeChoices choices_of(const VisibilityInput& input) {
     const Camera& camera = input.context.camera;
     return {input.spec["geometry"] == "quad",

@@ -14,6 +14,7 @@ namespace {
 /// Embree reads whole vectors of four floats, also at the last vertex.
 constexpr size_t kFloatPadding = 4;
 
+/// The header does not know Embree's enumeration, for the program is built without Embree's headers.
 RTCBuildQuality quality_of(EmbreeQuality quality) {
     switch (quality) {
         case EmbreeQuality::Low:
@@ -26,7 +27,8 @@ RTCBuildQuality quality_of(EmbreeQuality quality) {
     return RTC_BUILD_QUALITY_MEDIUM;
 }
 
-/// Embree reports errors by device, and only when asked: this asks, and throws.
+/// Embree reports errors by device, and only when asked: this asks, and throws. A build that failed unnoticed
+/// would be a scene in which nothing is hit.
 void check(RTCDevice device) {
     switch (rtcGetDeviceError(device)) {
         case RTC_ERROR_NONE:
@@ -61,6 +63,7 @@ void copy_key(const Grid& grid, int key, float* out) {
 }
 
 /// Fills the vertex buffer: all grids of key 0, then all of key 1, and so on, as Embree wants time steps.
+/// Embree reads 16 bytes at each vertex of 12, so that the buffer needs some floats behind its end.
 void copy_positions(EmbreeMesh& mesh) {
     const size_t count = mesh.vertex_count * static_cast<size_t>(mesh.key_count) * 3;
     mesh.positions = std::make_unique_for_overwrite<float[]>(count + kFloatPadding);
@@ -106,6 +109,8 @@ RTCGrid window_of(const GridShape& shape, size_t first_vertex) {
 
 }  // namespace
 
+/// Copying is timed apart from building, since other methods read grids as they are. Embree says what its
+/// tree takes through its memory monitor only.
 EmbreeScene::EmbreeScene(const Grids& grids, const EmbreeChoices& choices, RTCFilterFunctionN filter) {
     const auto start = std::chrono::steady_clock::now();
     device_ = rtcNewDevice(choices.device.c_str());
@@ -123,6 +128,7 @@ EmbreeScene::~EmbreeScene() {
 }
 
 /// One mesh for each number of keys, filtered and not: unfiltered ones are spared the call for each hit.
+/// Embree knows keys of motion, and whether to call the filter, by geometry.
 void EmbreeScene::gather_meshes(const Grids& grids, bool quads) {
     std::map<std::pair<int, bool>, EmbreeMesh> kinds;
     for (size_t i = 0; i < grids.grids.size(); ++i) {
@@ -142,6 +148,7 @@ void EmbreeScene::gather_meshes(const Grids& grids, bool quads) {
     }
 }
 
+/// Errors are looked for once, after the commit: Embree keeps the first one.
 void EmbreeScene::commit(const EmbreeChoices& choices, RTCFilterFunctionN filter) {
     scene_ = rtcNewScene(device_);
     rtcSetSceneBuildQuality(scene_, quality_of(choices.quality));
@@ -150,6 +157,8 @@ void EmbreeScene::commit(const EmbreeChoices& choices, RTCFilterFunctionN filter
     check(device_);
 }
 
+/// Buffers are shared and not copied by Embree; the meshes own them and outlive the scene. The geometry
+/// belongs to Embree's scene from here on.
 void EmbreeScene::attach(EmbreeMesh& mesh, const EmbreeChoices& choices, RTCFilterFunctionN filter) {
     const auto type = choices.quads ? RTC_GEOMETRY_TYPE_QUAD : RTC_GEOMETRY_TYPE_GRID;
     const RTCGeometry geometry = rtcNewGeometry(device_, type);

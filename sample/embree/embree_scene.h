@@ -14,7 +14,8 @@
 namespace trapeze {
 
 /// Grids that are one geometry: Embree wants equal numbers of time steps in it, and calls filters for all of
-/// it or for none.
+/// it or for none. Vertices are copied out of the grids' tiles, because Embree reads rows of a stride; the
+/// copies live as long as the tree.
 struct EmbreeMesh {
     int key_count = 1;
     bool filtered = false;         ///< has layers or one-sided grids
@@ -54,7 +55,10 @@ class EmbreeScene {
     static uint64_t micropolygon(const EmbreeMesh& mesh, unsigned primitive, float u, float v);
 
   private:
+    /// Grids stay where they are and are referred to; positions are copied, as Embree wants them in one
+    /// piece.
     void gather_meshes(const Grids& grids, bool quads);
+    /// Builds Embree's structure; no mesh may be attached afterwards.
     void commit(const EmbreeChoices& choices, RTCFilterFunctionN filter);
     void attach(EmbreeMesh& mesh, const EmbreeChoices& choices, RTCFilterFunctionN filter);
 

@@ -26,7 +26,9 @@ bool faces(const Grid& grid, const RTCFilterFunctionNArguments& args, unsigned i
     return (grid.facing == Facing::PositiveOnly) == (along <= 0);
 }
 
-/// Rejects hits on the side that does not show; notes transparent ones and lets the ray go on.
+/// Rejects hits on the side that does not show; notes transparent ones and lets the ray go on. Called by
+/// Embree for each hit that it finds, in no order of depth: a transparent layer behind an opaque hit is noted
+/// too, and sorted out later.
 void filter_hits(const RTCFilterFunctionNArguments* args) {
     const auto& mesh = *static_cast<const EmbreeMesh*>(args->geometryUserPtr);
     std::vector<LooseHits::Entry>& layers = *reinterpret_cast<Collector*>(args->context)->layers;
@@ -51,6 +53,8 @@ EmbreeMode chosen_mode(EmbreeMode asked, const EmbreeScene& scene, bool quads, b
     return quads || (scene.has_wide_packets() && !motion) ? EmbreeMode::Stream : EmbreeMode::Packet8;
 }
 
+/// The tree and the way in which rays are handed to it. Immutable once made; every call of trace() has a
+/// context of its own, through which the filter finds that call's list.
 class Tracer final : public EmbreeTracer {
   public:
     Tracer(const Grids& grids, const EmbreeChoices& choices)
@@ -91,6 +95,8 @@ class Tracer final : public EmbreeTracer {
         to.ray.mask = ~0u, to.ray.id = sample, to.ray.flags = 0;
         to.hit.geomID = to.hit.primID = to.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     }
+    /// What Embree reports at last is the nearest hit that no filter rejected: opaque, and on a side that
+    /// shows.
     void keep(const RTCRayHit& ray, uint32_t sample, SampleScratch& scratch) const {
         if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
         scratch.nearest[sample] = {ray.ray.tfar,
@@ -108,6 +114,7 @@ class Tracer final : public EmbreeTracer {
         }
     }
 
+    /// Rays as structures one after the other, which Embree sorts into packets itself.
     void trace_streams(const SampleTile& samples, std::span<const uint32_t> order, SampleScratch& scratch,
                        RTCIntersectContext* context) const {
         RTCRayHit rays[kStreamRays];
@@ -142,6 +149,7 @@ class Tracer final : public EmbreeTracer {
                                             packet.hit.u[lane], packet.hit.v[lane])};
         }
     }
+    /// As set_ray(), in one lane of a packet, whose numbers lie in planes.
     template <class Packet>
     void set_lane(const AxisRay& from, uint32_t sample, size_t lane, Packet& to) const {
         to.ray.org_x[lane] = from.ox, to.ray.org_y[lane] = from.oy, to.ray.org_z[lane] = from.oz;
@@ -156,6 +164,7 @@ class Tracer final : public EmbreeTracer {
     EmbreeMode mode_;
 };
 
+/// The one object of the module, handed out through trapeze_embree_module.
 class Library final : public EmbreeLibrary {
   public:
     std::unique_ptr<EmbreeTracer> build(const Grids& grids, const EmbreeChoices& choices) const override {

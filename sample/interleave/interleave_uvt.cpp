@@ -14,6 +14,8 @@ namespace {
 
 constexpr int kUvtTileSide = 64;
 
+/// The method makes the pattern itself, equal to the one that the samples came from, since it needs the
+/// tuples and not only the samples.
 class InterleaveUvt final : public Rasterizer {
   public:
     InterleaveUvt(const VisibilityInput& input)

@@ -22,7 +22,9 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// What a tuple's samples share: place in the pixel, lens point (camera space) and its part of slopes, time
-/// in the grid's segments, and how far vertices may be off on the raster.
+/// in the grid's segments, and how far vertices may be off on the raster. The slack is that of the grid at
+/// its nearest depth, turned into pixels; boxes of micropolygons that may be nearer take their own
+/// (make_boxes<true>).
 struct PlacedTuple {
     size_t index;
     float x, y;  ///< from a pixel's corner
@@ -77,15 +79,18 @@ class UvtMesh {
                 slack * std::abs(scale_.scale_y)};
     }
 
-    /// Vertices at a tuple's time, bit for bit as all methods have them, and about where they are seen.
-    template <bool kMoves>
+    /// Vertices at a tuple's time, bit for bit as all methods have them, and about where they are seen. At
+    /// one time and through one point of the lens a micropolygon is a still quad under a pinhole camera: its
+    /// box on the raster follows from its four corners alone, without bounds on blur. That is what the method
+    /// gains.
+    template <bool kMotion>
     void place(const PlacedTuple& at) {
         const D d;
-        const int segment = kMoves ? at.at.index : 0;
+        const int segment = kMotion ? at.at.index : 0;
         const V local = hn::Set(d, at.at.local);
-        x_ = kMoves ? scratch_.x.data() : rows_.plane(0, 0);
-        y_ = kMoves ? scratch_.y.data() : rows_.plane(0, 1);
-        z_ = kMoves ? scratch_.z.data() : rows_.plane(0, 2);
+        x_ = kMotion ? scratch_.x.data() : rows_.plane(0, 0);
+        y_ = kMotion ? scratch_.y.data() : rows_.plane(0, 1);
+        z_ = kMotion ? scratch_.z.data() : rows_.plane(0, 2);
         const V lens_x = hn::Set(d, at.lens_x), lens_y = hn::Set(d, at.lens_y);
         const V slope_x = hn::Set(d, at.slope_x), slope_y = hn::Set(d, at.slope_y);
         const V scale_x = hn::Set(d, scale_.scale_x), scale_y = hn::Set(d, scale_.scale_y);
@@ -93,7 +98,7 @@ class UvtMesh {
         for (int i = 0; i < rows_.vertex_count(); i += static_cast<int>(hn::Lanes(d))) {
             const auto vertex = [&](int component, std::vector<float>& placed) HWY_ATTR {
                 V p = hn::LoadU(d, rows_.plane(segment, component) + i);
-                if constexpr (kMoves) {
+                if constexpr (kMotion) {
                     p = position_at(p, hn::LoadU(d, rows_.plane(segment, 3 + component) + i), local);
                     hn::StoreU(p, d, &placed[i]);
                 }
@@ -103,7 +108,7 @@ class UvtMesh {
             const V z = vertex(2, scratch_.z);
             if constexpr (kPerspective) {
                 V w = hn::Zero(d);
-                if constexpr (kMoves)
+                if constexpr (kMotion)
                     w = inverse_of(z);
                 else
                     w = hn::LoadU(d, &scratch_.inverse_z[i]);

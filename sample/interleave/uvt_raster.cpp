@@ -15,7 +15,9 @@ HWY_BEFORE_NAMESPACE();
 namespace trapeze {
 namespace HWY_NAMESPACE {
 
-/// One grid in a tile, tuple by tuple.
+/// One grid in a tile, tuple by tuple. For each tuple that may see the grid: place the vertices, make boxes,
+/// queue the samples in them, test the queue. Depths so far are kept by tuple and cell, which is where
+/// culling looks.
 template <bool kPerspective>
 class GridRaster {
   public:
@@ -47,6 +49,7 @@ class GridRaster {
 
     using Tuple = PlacedTuple;
 
+    /// `listed` counts among the tuples that may see the grid, and not among all.
     Tuple tuple(size_t listed) const {
         return mesh_.tuple(raster_, static_cast<size_t>(scratch_.tuples.tuple[listed]), grid_.grid.key_count,
                            scratch_.tuples.slack[listed]);
@@ -267,6 +270,7 @@ namespace trapeze {
 
 HWY_EXPORT(raster_grid_uvt);
 
+/// The kind of projection is a template argument, as it stands in the innermost loop.
 void raster_grid_uvt(UvtRaster& raster, const BoundedGrid& grid, SampleStats& stats) {
     HWY_DYNAMIC_DISPATCH(raster_grid_uvt)(raster, grid, stats);
 }

@@ -35,7 +35,8 @@ struct UvtGridTuples {
     }
 };
 
-/// Micropolygons that a sample may see, to be tested.
+/// Micropolygons that a sample may see, to be tested. Pairs are collected over micropolygons, because one
+/// micropolygon covers few samples of a tuple and a vector wants many.
 struct UvtQueue {
     /// All lanes of a vector may be added to a queue that is not yet full.
     static constexpr size_t kFull = 256, kPadding = 16;

@@ -30,6 +30,8 @@ UvtTuples::UvtTuples(const InterleavedPattern& pattern, const Camera& camera)
     }
 }
 
+/// Cells are anchored at multiples of the pattern's side in the whole picture, not at the tile: the pattern
+/// is the same however the picture is cut.
 void UvtTile::build(const PixelRect& pixels, const InterleavedPattern& pattern, const Camera& camera) {
     pixels_ = pixels;
     side_ = pattern.side(), side_shift_ = std::countr_zero(static_cast<unsigned>(side_));
@@ -81,7 +83,8 @@ void UvtTile::build_cells(const PixelRect& pixels, const InterleavedPattern& pat
         }
 }
 
-/// By the same function as the samples' rays, so that both agree to the bit.
+/// By the same function as the samples' rays, so that both agree to the bit. Per column and per row instead
+/// of per pixel: samples of a tuple have the same place in all of their pixels.
 void UvtTile::build_rays(const InterleavedPattern& pattern, const Camera& camera) {
     const auto tuples = static_cast<size_t>(pattern.tuple_count());
     columns_.resize(tuples * static_cast<size_t>(width_));
@@ -104,7 +107,8 @@ void UvtTile::build_rays(const InterleavedPattern& pattern, const Camera& camera
     }
 }
 
-/// A pixel's samples are consecutive tuples, at the same cell of consecutive planes.
+/// A pixel's samples are consecutive tuples, at the same cell of consecutive planes. Pixels of cells that
+/// reach out of the tile have no samples in it, and are left out.
 void UvtTile::copy_nearest(std::vector<Hit>& nearest) const {
     size_t sample = 0, pixel = 0;
     for (int y = pixels_.y0 - y0_; y < height_; ++y)

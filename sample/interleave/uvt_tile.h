@@ -54,6 +54,7 @@ class UvtTile {
     /// Column or row -> what depends on it of the rays of a tuple: slope for perspective cameras, else
     /// origin.
     const float* columns(size_t tuple) const { return columns_.data() + tuple * static_cast<size_t>(width_); }
+    /// A tuple's rays by rows of the tile: one coordinate for each, as the other depends on the column.
     const float* rows(size_t tuple) const { return rows_.data() + tuple * static_cast<size_t>(height_); }
 
     /// Cell -> depth of the nearest opaque hit of a tuple's sample: infinity where nothing was hit yet,

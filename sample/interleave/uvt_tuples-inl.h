@@ -22,7 +22,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using UvtLanes = hn::CappedTag<float, UvtQueue::kPadding>;
 
-/// Scale from the image plane to pixels counted from a tile's corner.
+/// Scale from the image plane to pixels counted from a tile's corner. Floats suffice: what they round is
+/// within the slack that boxes are grown by.
 struct TileScale {
     float scale_x, offset_x, scale_y, offset_y;
 

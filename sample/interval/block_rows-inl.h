@@ -23,16 +23,18 @@ namespace trapeze {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// How the corners of a micropolygon get to where they are at the samples' times: not at all, within one
-/// segment, or by looking up each sample's segment.
-enum class Motion { None, OneSegment, Segments };
+/// In how many segments of a grid's motion a slot's samples have their times. Corners of micropolygons get to
+/// where they are then not at all, within one segment, or by looking up each sample's segment.
+enum class SlotSegments { None, One, Several };
 
 using BlockTag = hn::CappedTag<float, SampleBlock::kLanes>;
 using BlockMask = hn::Mask<BlockTag>;
 
 /// The test of rows of one grid against a vector of samples: all lanes of a block, or as many as a vector
-/// has.
-template <Motion kMotion, bool kLens>
+/// has. Neighbouring micropolygons share vertices and edges: a row's upper vertices and edges, already moved
+/// along the rays, are kept as the next row's lower ones. Only the arithmetic is shared; each crossing comes
+/// out as the predicate has it, bit for bit.
+template <SlotSegments kSegments, bool kLens>
 class BlockRows {
   public:
     BlockRows(SlotRaster& raster, const GridInSlot& in, const VertexRows& rows, SampleStats& stats)
@@ -43,7 +45,7 @@ class BlockRows {
         index_ = block, lane_ = first_lane;
         block_ = &raster_.slots.block(block);
         row_ = -1, vertices_ = edges_ = 0;
-        if constexpr (kMotion != Motion::None) place_in_time();
+        if constexpr (kSegments != SlotSegments::None) place_in_time();
     }
 
     /// Tests the micropolygons (u, v) of the bits u of `columns`. wanted(u) gives the lanes worth testing.
@@ -51,11 +53,11 @@ class BlockRows {
     template <class Wanted>
     void test(int v, uint32_t columns, const Wanted& wanted) {
         if (v != row_) vertices_ = edges_ = 0;
-        const Run run = run_of_row(v);
+        const RowPair pair = pair_of_rows(v);
         const uint32_t needed = columns | columns << 1;
-        complete_lower(run, needed & ~vertices_, columns & ~edges_);
+        complete_lower(pair, needed & ~vertices_, columns & ~edges_);
         for (uint32_t left = columns; left != 0;) {
-            const int first = std::countr_zero(left), last = test_run(run, first, v, columns, wanted);
+            const int first = std::countr_zero(left), last = test_columns(pair, first, v, columns, wanted);
             left &= ~((uint32_t{1} << last) - 1);
         }
         row_ = v + 1, vertices_ = needed, edges_ = columns;
@@ -78,7 +80,7 @@ class BlockRows {
         const hn::RebindToSigned<D> di;
         const V time = hn::Load(d, block_->time + lane_);
         const int first = in_.parts.front().segment;
-        if constexpr (kMotion == Motion::OneSegment) {
+        if constexpr (kSegments == SlotSegments::One) {
             const V scaled = hn::Mul(time, hn::Set(d, static_cast<float>(in_.grid.key_count - 1)));
             hn::Store(hn::Sub(scaled, hn::Set(d, static_cast<float>(first))), d, local_);
             return;
@@ -91,14 +93,14 @@ class BlockRows {
     }
 
     /// Two rows of vertices and the rays. Locals: stores of vectors may alias whatever is in memory.
-    struct Run {
+    struct RowPair {
         const float* lower;  ///< the row below: plane x, first segment
         size_t row, plane;   ///< floats to the row above, and from plane to plane
         const int32_t* segment;
         V ox, oy, ux, uy, local;
     };
 
-    HWY_INLINE Run run_of_row(int v) const {
+    HWY_INLINE RowPair pair_of_rows(int v) const {
         const D d;
         const V zero = hn::Zero(d);
         return {rows_.first + static_cast<size_t>(v) * static_cast<size_t>(rows_.row_length),
@@ -109,38 +111,39 @@ class BlockRows {
                 kLens ? hn::Load(d, block_->oy + lane_) : zero,
                 hn::Load(d, block_->ux + lane_),
                 hn::Load(d, block_->uy + lane_),
-                kMotion == Motion::None ? zero : hn::Load(d, local_)};
+                kSegments == SlotSegments::None ? zero : hn::Load(d, local_)};
     }
 
-    /// A coordinate of vertex `at` of the run (floats from the row below) at the samples' times.
-    static HWY_INLINE V coordinate(const Run& run, size_t at, int component) {
+    /// A coordinate of vertex `at` of the pair (floats from the row below) at the samples' times.
+    static HWY_INLINE V coordinate(const RowPair& pair, size_t at, int component) {
         const D d;
-        const float* start = run.lower + static_cast<size_t>(component) * run.plane + at;
-        if constexpr (kMotion == Motion::None) return hn::Set(d, *start);
-        const float* delta = start + 3 * run.plane;
-        if constexpr (kMotion == Motion::OneSegment)
-            return position_at(hn::Set(d, *start), hn::Set(d, *delta), run.local);
-        const auto segment = hn::Load(hn::RebindToSigned<D>(), run.segment);
-        return position_at(hn::GatherIndex(d, start, segment), hn::GatherIndex(d, delta, segment), run.local);
+        const float* start = pair.lower + static_cast<size_t>(component) * pair.plane + at;
+        if constexpr (kSegments == SlotSegments::None) return hn::Set(d, *start);
+        const float* delta = start + 3 * pair.plane;
+        if constexpr (kSegments == SlotSegments::One)
+            return position_at(hn::Set(d, *start), hn::Set(d, *delta), pair.local);
+        const auto segment = hn::Load(hn::RebindToSigned<D>(), pair.segment);
+        return position_at(hn::GatherIndex(d, start, segment), hn::GatherIndex(d, delta, segment),
+                           pair.local);
     }
 
     /// A vertex along the rays to their plane: the predicate's a and b.
-    static HWY_INLINE void move_to_plane(const Run& run, size_t at, V* a, V* b) {
-        const V z = coordinate(run, at, 2);
-        V x = coordinate(run, at, 0), y = coordinate(run, at, 1);
-        if constexpr (kLens) x = hn::Sub(x, run.ox), y = hn::Sub(y, run.oy);
-        *a = hn::Sub(x, hn::Mul(run.ux, z));
-        *b = hn::Sub(y, hn::Mul(run.uy, z));
+    static HWY_INLINE void move_to_plane(const RowPair& pair, size_t at, V* a, V* b) {
+        const V z = coordinate(pair, at, 2);
+        V x = coordinate(pair, at, 0), y = coordinate(pair, at, 1);
+        if constexpr (kLens) x = hn::Sub(x, pair.ox), y = hn::Sub(y, pair.oy);
+        *a = hn::Sub(x, hn::Mul(pair.ux, z));
+        *b = hn::Sub(y, hn::Mul(pair.uy, z));
     }
 
     /// Computes vertices and edges of the lower row that the row before has not left behind.
-    HWY_INLINE void complete_lower(const Run& run, uint32_t vertices, uint32_t edges) {
+    HWY_INLINE void complete_lower(const RowPair& pair, uint32_t vertices, uint32_t edges) {
         const D d;
         Row& below = *lower_;
         for (; vertices != 0; vertices &= vertices - 1) {
             const int i = std::countr_zero(vertices);
             V a, b;
-            move_to_plane(run, static_cast<size_t>(i), &a, &b);
+            move_to_plane(pair, static_cast<size_t>(i), &a, &b);
             hn::Store(a, d, below.a[i]), hn::Store(b, d, below.b[i]);
         }
         for (; edges != 0; edges &= edges - 1) {
@@ -154,20 +157,20 @@ class BlockRows {
 
     /// Tests micropolygons from u on as far as bits follow each other; returns the first past them.
     template <class Wanted>
-    HWY_INLINE int test_run(const Run& run, int u, int v, uint32_t columns, const Wanted& wanted) {
+    HWY_INLINE int test_columns(const RowPair& pair, int u, int v, uint32_t columns, const Wanted& wanted) {
         namespace p = predicate_lanes;
         const D d;
         const Row& below = *lower_;
         Row& above = *upper_;
         V a00 = hn::Load(d, below.a[u]), b00 = hn::Load(d, below.b[u]), a01, b01;
-        move_to_plane(run, run.row + static_cast<size_t>(u), &a01, &b01);
+        move_to_plane(pair, pair.row + static_cast<size_t>(u), &a01, &b01);
         hn::Store(a01, d, above.a[u]), hn::Store(b01, d, above.b[u]);
         V abs00 = hn::Abs(b00), abs01 = hn::Abs(b01);
         V left = p::crossing(a01, b01, abs01, a00, b00, abs00);
         for (; columns >> u & 1; ++u) {
             const V a10 = hn::Load(d, below.a[u + 1]), b10 = hn::Load(d, below.b[u + 1]);
             V a11, b11;
-            move_to_plane(run, run.row + static_cast<size_t>(u) + 1, &a11, &b11);
+            move_to_plane(pair, pair.row + static_cast<size_t>(u) + 1, &a11, &b11);
             hn::Store(a11, d, above.a[u + 1]), hn::Store(b11, d, above.b[u + 1]);
             const V abs10 = hn::Abs(b10), abs11 = hn::Abs(b11);
             const V right = p::crossing(a10, b10, abs10, a11, b11, abs11),
@@ -176,8 +179,8 @@ class BlockRows {
             const V crossings = hn::Xor(hn::Xor(hn::Load(d, below.crossing[u]), right), hn::Xor(top, left));
             const BlockMask passed = p::negative(d, crossings);
             if (!hn::AllFalse(d, passed)) {
-                const QuadLanes<V> quad = with_depths(run, u, a00, a10, a01, a11, b00, b10, b01, b11);
-                settle(static_cast<uint32_t>(v << 4 | u), quad, hn::And(passed, wanted(u)));
+                const QuadLanes<V> quad = with_depths(pair, u, a00, a10, a01, a11, b00, b10, b01, b11);
+                find_depths(static_cast<uint32_t>(v << 4 | u), quad, hn::And(passed, wanted(u)));
             }
             a00 = a10, b00 = b10, a01 = a11, b01 = b11, left = right, abs01 = abs11;
         }
@@ -185,7 +188,7 @@ class BlockRows {
     }
 
     /// The quad of micropolygon u with its depths, which only those that are passed need.
-    static HWY_INLINE QuadLanes<V> with_depths(const Run& run, int u, V a00, V a10, V a01, V a11, V b00,
+    static HWY_INLINE QuadLanes<V> with_depths(const RowPair& pair, int u, V a00, V a10, V a01, V a11, V b00,
                                                V b10, V b01, V b11) {
         const auto at = static_cast<size_t>(u);
         return {a00,
@@ -196,14 +199,14 @@ class BlockRows {
                 b10,
                 b01,
                 b11,
-                coordinate(run, at, 2),
-                coordinate(run, at + 1, 2),
-                coordinate(run, run.row + at, 2),
-                coordinate(run, run.row + at + 1, 2)};
+                coordinate(pair, at, 2),
+                coordinate(pair, at + 1, 2),
+                coordinate(pair, pair.row + at, 2),
+                coordinate(pair, pair.row + at + 1, 2)};
     }
 
     /// Finds the depths of rays that pass inside a micropolygon, v << 4 | u, and keeps its hits.
-    HWY_INLINE void settle(uint32_t micropolygon, const QuadLanes<V>& quad, BlockMask passed) {
+    HWY_INLINE void find_depths(uint32_t micropolygon, const QuadLanes<V>& quad, BlockMask passed) {
         const D d;
         if (hn::AllFalse(d, passed)) return;
         V depth = hn::Zero(d);

@@ -35,9 +35,11 @@ constexpr int kSlotCellShift = 2;
 /// cell then has as many pixels as fill a block.
 constexpr int kSparseCellShift = 3;
 
-class Interval final : public Rasterizer {
+/// What can blur and what cannot is resolved in two passes over the tile's samples, sorted into different
+/// slots; the hits of both are merged by depth.
+class IntervalRasterizer final : public Rasterizer {
   public:
-    Interval(const VisibilityInput& input) : Rasterizer(input, kIntervalTileSide) {
+    explicit IntervalRasterizer(const VisibilityInput& input) : Rasterizer(input, kIntervalTileSide) {
         if (input.spec["pairing"] == "fixed") {
             const IntervalPattern pattern(input.context);
             still_plan_ = still_plan(pattern.sample_count());
@@ -89,6 +91,8 @@ class Interval final : public Rasterizer {
         raster_slots(samples, plan_, own.blurred, shifted, own, scratch, stats);
     }
 
+    /// Slot by slot, and in each grid by grid: a slot's samples lie together in memory, and are gone through
+    /// while they are in the caches.
     void raster_slots(const SampleTile& samples, const SlotPlan& plan, const std::vector<uint32_t>& grids,
                       bool sparse, IntervalScratch& own, SampleScratch& scratch, SampleStats& stats) const {
         SampleSlots& slots = own.slots;
@@ -102,6 +106,8 @@ class Interval final : public Rasterizer {
         slots.merge_into(scratch.nearest);
     }
 
+    /// A grid that is out of the tile during the slot's times and through its part of the lens costs its
+    /// bound and no more.
     void raster_grid_in_slot(SlotRaster& raster, IntervalScratch& own, const PixelRect& tile, uint32_t index,
                              const Slot& at, size_t slot, SampleStats& stats) const {
         const Grid& seen = grid(index);
@@ -135,7 +141,7 @@ VisibilityMethod interval_method() {
                 return pattern.name == natural_pattern(method);
             },
             [](const VisibilityInput& input) -> std::unique_ptr<Visibility> {
-                return std::make_unique<Interval>(input);
+                return std::make_unique<IntervalRasterizer>(input);
             }};
 }
 

@@ -9,7 +9,8 @@
 
 namespace trapeze {
 
-/// A grid's vertices in a slot, row by row, and its micropolygons' boxes.
+/// A grid's vertices in a slot, row by row, and its micropolygons' boxes. Overwritten for each grid in each
+/// slot.
 struct SlotGridScratch {
     std::vector<float> vertices;                                  ///< [part][component][vertex]
     std::vector<float> min_x, max_x, min_y, max_y, min_z, max_z;  ///< of vertices

@@ -63,7 +63,8 @@ void SampleSlots::count_blocks(const SampleTile& samples, const SlotTable& table
     first_block_.back() = static_cast<uint32_t>(lane_counts_.size());
 }
 
-/// Copies rays to their lanes. The order of samples in a cell is that of the tile.
+/// Copies rays to their lanes. The order of samples in a cell is that of the tile. Second pass of a counting
+/// sort: each slot's cell knows where its next lane is.
 void SampleSlots::fill_blocks(const SampleTile& samples, const SlotTable& table, bool places) {
     blocks_.resize(lane_counts_.size());
     samples_.resize(lane_counts_.size() * kLanes);
@@ -94,6 +95,7 @@ void SampleSlots::fill_rest() {
     }
 }
 
+/// A sample is in one slot only, but `nearest` may hold what another pass has found for it.
 void SampleSlots::merge_into(std::vector<Hit>& nearest) const {
     // Cell by cell: what all slots have of some pixels goes to one place.
     for (size_t cell = 0; cell + 1 < cell_count_; ++cell)
@@ -101,7 +103,8 @@ void SampleSlots::merge_into(std::vector<Hit>& nearest) const {
             for (size_t i = first_block_[at]; i < first_block_[at + 1]; ++i) merge_block(i, nearest);
 }
 
-/// The nearer of a lane's hit and what the sample has already.
+/// The nearer of a lane's hit and what the sample has already. A grid's number and a micropolygon's make the
+/// packed id (MicropolygonId).
 void SampleSlots::merge_block(size_t index, std::vector<Hit>& nearest) const {
     const SampleBlock& block = blocks_[index];
     for (size_t lane = 0; lane < lane_counts_[index]; ++lane) {

@@ -35,7 +35,9 @@ struct SlotTable {
     size_t slot_count = 0;
 };
 
-/// Cells are squares of 2^cell_shift pixels anchored at the tile's corner.
+/// Cells are squares of 2^cell_shift pixels anchored at the tile's corner. Blocks lie slot by slot, and
+/// within a slot cell by cell: [slot][cell][block], which is the order in which a grid's micropolygons go
+/// through them.
 class SampleSlots {
   public:
     /// Sorts a tile's samples into slots and cells; no hits yet. `places`: whether places of lanes are kept.
@@ -49,8 +51,10 @@ class SampleSlots {
 
     /// The blocks of a slot's cell c are cells[c] .. cells[c + 1]. Blocks of cells side by side follow.
     const uint32_t* cells(size_t slot) const { return first_block_.data() + slot * cell_count_; }
+    /// A slot's cells hold where the blocks of each begin, so one without blocks ends where it begins.
     bool is_empty(size_t slot) const { return cells(slot)[0] == cells(slot)[cell_count_ - 1]; }
 
+    /// Changed by rasterizing: the nearest hit of each lane so far is in it.
     SampleBlock& block(size_t index) { return blocks_[index]; }
     const BlockPlaces& places(size_t index) const { return places_[index]; }
     /// Index in the tile of a lane's sample.
@@ -61,8 +65,11 @@ class SampleSlots {
     void merge_into(std::vector<Hit>& nearest) const;
 
   private:
+    /// First of two passes over the samples: how many each cell has, so that places can be taken without a
+    /// search.
     void count_blocks(const SampleTile& samples, const SlotTable& table);
     void fill_blocks(const SampleTile& samples, const SlotTable& table, bool places);
+    /// Lanes of a block that no sample takes are filled so that nothing is hit there.
     void fill_rest();
     void merge_block(size_t index, std::vector<Hit>& nearest) const;
     template <class Visit>

@@ -36,7 +36,8 @@ struct VertexRows {
     }
 };
 
-/// Copies a grid's vertices from tiles of 4x4 to rows.
+/// Copies a grid's vertices from tiles of 4x4 to rows. Only the segments that the slot covers, planes of
+/// start and of way (three components each) one after another.
 HWY_INLINE VertexRows vertex_rows(const GridInSlot& in, SlotGridScratch& scratch) {
     const Grid& grid = in.grid;
     const GridShape& shape = grid.shape;
@@ -68,6 +69,8 @@ struct BoxConstants {
     float z_safe;
 };
 
+/// Where nothing of the grid can be bounded the safe depth is infinite, so that each of its vertices counts
+/// as unsafe and its box is everything.
 HWY_INLINE BoxConstants box_constants(const Camera& camera, const GridInSlot& in) {
     const float radius = camera.lens_radius;
     return {camera.perspective,

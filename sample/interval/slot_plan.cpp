@@ -4,10 +4,13 @@
 
 namespace trapeze {
 
+/// The slot's default times and lens are points at 0: for what does not blur any are as good.
 SlotPlan still_plan(int samples_per_pixel) {
     return {{Slot{}}, std::vector<uint32_t>(static_cast<size_t>(samples_per_pixel), 0)};
 }
 
+/// Sample s of every pixel has the same regions (IntervalPattern), so that its slot is s and no pixel needs a
+/// key.
 SlotPlan fixed_plan(const IntervalPattern& pattern) {
     SlotPlan plan;
     for (int s = 0; s < pattern.sample_count(); ++s) {
@@ -17,6 +20,9 @@ SlotPlan fixed_plan(const IntervalPattern& pattern) {
     return plan;
 }
 
+/// Slots are numbered [part of the shutter][sample, which is a region of the lens]. Which time region a
+/// sample has depends on its pixel's shift, the key: every key has a row of slot_of, and each slot's span of
+/// time grows to hold all samples that any key sends to it.
 SlotPlan shuffled_plan(const StratifiedPattern& pattern, int time_slots) {
     const auto count = static_cast<uint32_t>(pattern.sample_count());
     const uint32_t keys = pattern.has_time_shifts() ? count : 1;

@@ -25,7 +25,8 @@ HWY_INLINE float farthest_depth(const SampleBlock& block) {
     return hn::GetLane(hn::MaxOfLanes(d, farthest));
 }
 
-/// Whether nothing of a grid can be in front of the samples of the pixels that it may cover.
+/// Whether nothing of a grid can be in front of the samples of the pixels that it may cover: by its nearest
+/// depth, which is safe and cheap. Blocks of a row of cells stand side by side.
 HWY_INLINE bool is_hidden(SlotRaster& raster, const GridInSlot& in) {
     SampleSlots& slots = raster.slots;
     const uint32_t* cells = slots.cells(in.slot);
@@ -39,8 +40,10 @@ HWY_INLINE bool is_hidden(SlotRaster& raster, const GridInSlot& in) {
     return true;
 }
 
-/// Rasterizes a grid's micropolygons into the samples of a slot, cell by cell.
-template <Motion kMotion, bool kOrigins>
+/// Rasterizes a grid's micropolygons into the samples of a slot, cell by cell. Cells first, rows of
+/// micropolygons second: the mask of rows that reach a cell is made once for a grid, and a cell's block of
+/// samples is loaded once for all of them.
+template <SlotSegments kSegments, bool kLens>
 class CellRaster {
   public:
     CellRaster(SlotRaster& raster, const GridInSlot& in, const VertexRows& rows, SlotGridScratch& boxes,
@@ -185,6 +188,7 @@ class CellRaster {
         finish_row(index, lane, v, columns, [&](int) HWY_ATTR { return valid; });
     }
 
+    /// Costs are counted before the test, of the same lanes.
     template <class Wanted>
     HWY_INLINE void finish_row(size_t index, size_t lane, int v, uint32_t columns, const Wanted& wanted) {
         if (raster_.scratch.heat) count_heat(index, lane, columns, wanted);
@@ -223,7 +227,7 @@ class CellRaster {
     const GridInSlot& in_;
     SlotGridScratch& boxes_;
     SampleStats& stats_;
-    BlockRows<kMotion, kOrigins> rows_;
+    BlockRows<kSegments, kLens> rows_;
     int row_length_, shift_;
 };
 
@@ -241,18 +245,18 @@ void raster_grid(SlotRaster& raster, const GridInSlot& in, SlotGridScratch& scra
     if (!bound_micropolygons(raster, in, rows, scratch)) return;
     SampleStats counted;
     const bool origins = lens || !raster.camera.perspective;  // else all rays start in one point
-    const auto run = [&](auto motion) HWY_ATTR {
+    const auto run = [&](auto segments) HWY_ATTR {
         if (origins)
-            CellRaster<motion(), true>(raster, in, rows, scratch, counted).run();
+            CellRaster<segments(), true>(raster, in, rows, scratch, counted).run();
         else
-            CellRaster<motion(), false>(raster, in, rows, scratch, counted).run();
+            CellRaster<segments(), false>(raster, in, rows, scratch, counted).run();
     };
     if (!in.grid.moves())
-        run(std::integral_constant<Motion, Motion::None>());
+        run(std::integral_constant<SlotSegments, SlotSegments::None>());
     else if (in.parts.size() == 1)
-        run(std::integral_constant<Motion, Motion::OneSegment>());
+        run(std::integral_constant<SlotSegments, SlotSegments::One>());
     else
-        run(std::integral_constant<Motion, Motion::Segments>());
+        run(std::integral_constant<SlotSegments, SlotSegments::Several>());
     stats += counted;
 }
 

@@ -14,7 +14,7 @@
 namespace trapeze {
 namespace {
 
-/// A tile's rays, and those of one micropolygon's hits.
+/// A tile's rays, and those of one micropolygon's hits. One for each thread; it grows to the largest tile.
 struct BruteForceScratch {
     std::vector<float> ox, oy, ux, uy, time;  ///< rays in planes, padded to whole vectors
     std::vector<uint32_t> found;              ///< samples that the predicate answered yes for
@@ -62,6 +62,7 @@ class BruteForce final : public Visibility {
             buffer_of_loose_hits(scratch, samples.size(), hits);
     }
 
+    /// Each ray against each micropolygon, without even a box, so that nothing of a tree can be wrong in it.
     bool occluded(std::span<const SpaceRay> rays, DepthRange range, std::span<uint8_t> met,
                   SampleStats& stats) const override {
         for (size_t i = 0; i < rays.size(); ++i) {
@@ -141,6 +142,8 @@ class BruteForce final : public Visibility {
 
 }  // namespace
 
+/// The reference that all other methods are compared with, hit by hit: it has no tree that could miss
+/// anything.
 VisibilityMethod brute_force_method() {
     return {"bruteforce",
             MethodKind::Reference,

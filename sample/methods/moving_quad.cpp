@@ -13,7 +13,9 @@ HWY_BEFORE_NAMESPACE();
 namespace trapeze {
 namespace HWY_NAMESPACE {
 
-/// find_hits() with corners that `vertex(component, corner, lane's segment, local time)` places.
+/// find_hits() with corners that `vertex(component, corner, lane's segment, local time)` places. A lane's
+/// segment and local time follow from its ray's time; what `place` does with them differs by the number of
+/// keys, so that still quads load nothing and quads of two keys gather nothing.
 template <class Place>
 HWY_INLINE size_t find_hits_placed(const RayPlanes& rays, size_t first, size_t count, const MovingQuad& quad,
                                    uint32_t* found, float* found_depth, const Place& place) {
@@ -43,6 +45,8 @@ HWY_INLINE size_t find_hits_placed(const RayPlanes& rays, size_t first, size_t c
     return hit_count;
 }
 
+/// Three forms by the number of keys, since corners at a ray's time are most of the work: as they are, along
+/// one segment, or by a look-up of the segment.
 size_t find_hits(const RayPlanes& rays, size_t first, size_t count, const MovingQuad& quad, uint32_t* found,
                  float* depth) {
     if (quad.key_count == 1) {
@@ -65,6 +69,7 @@ size_t find_hits(const RayPlanes& rays, size_t first, size_t count, const Moving
     return find_hits_placed(rays, first, count, quad, found, depth, piecewise);
 }
 
+/// What HWY_DYNAMIC_DISPATCH chose, and so what all kernels of the program run on.
 std::string_view target_name() {
     return hwy::TargetName(HWY_TARGET);
 }
@@ -79,6 +84,8 @@ namespace trapeze {
 HWY_EXPORT(find_hits);
 HWY_EXPORT(target_name);
 
+/// Corners in the order (0,0), (1,0), (0,1), (1,1) of the micropolygon; by segments of motion, each with its
+/// start and the way to its end.
 MovingQuad::MovingQuad(const Grid& grid, int u, int v) : key_count(grid.key_count), facing(grid.facing) {
     for (int corner = 0; corner < 4; ++corner) {
         const int at = grid.shape.tiled_index(u + (corner & 1), v + (corner >> 1));

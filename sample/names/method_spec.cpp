@@ -7,6 +7,7 @@ std::string in_quotes(std::string_view text) {
     return "\"" + std::string(text) + "\"";
 }
 
+/// For messages: words with commas between.
 template <class Words>
 std::string joined(const Words& words) {
     std::string text;
@@ -45,7 +46,8 @@ std::optional<MethodSpec> parse_spec(std::string_view text, std::string* error) 
     return spec;
 }
 
-/// Checks what was given, then adds the defaults: an option's first value.
+/// Checks what was given, then adds the defaults, an option's first value: later stages find every option
+/// there.
 bool complete_spec(MethodSpec& spec, const std::vector<SpecOption>& options, std::string* error) {
     for (const auto& [key, value] : spec.options) {
         const SpecOption* option = find_named(options, key);
@@ -67,6 +69,8 @@ bool complete_spec(MethodSpec& spec, const std::vector<SpecOption>& options, std
     return true;
 }
 
+/// In the table's order, whatever the order was in which options were given: equal specs have equal texts, by
+/// which results are filed.
 std::string spec_text(const MethodSpec& spec, const std::vector<SpecOption>& options) {
     std::string text = spec.name;
     char separator = ':';

@@ -19,6 +19,7 @@ struct MethodSpec {
     const std::string& operator[](std::string_view key) const { return options.find(key)->second; }
     bool has(std::string_view key) const { return options.contains(key); }
     bool is_on(std::string_view key) const { return (*this)[key] == "on"; }
+    /// Of an option whose values in the table are all numbers; complete_spec() has let no other word through.
     int number(std::string_view key) const { return std::stoi((*this)[key]); }
     bool operator==(const MethodSpec&) const = default;
 };

@@ -49,7 +49,8 @@ class SpreadSquare {
     std::vector<uint32_t> columns_, rows_;
 };
 
-/// Subpixel region -> region of another domain, differing from group to group.
+/// Subpixel region -> region of another domain, differing from group to group. Rows and columns are shuffled
+/// whole, which keeps what the base has by rows and by columns.
 std::vector<uint32_t> pairing(const std::vector<uint32_t>& base, int nx, int ny, uint32_t seed) {
     const std::vector<uint32_t> columns = hashed_permutation(static_cast<size_t>(nx), hash(seed, 0));
     const std::vector<uint32_t> rows = hashed_permutation(static_cast<size_t>(ny), hash(seed, 1));
@@ -66,6 +67,9 @@ InterleavedPattern::InterleavedPattern(const RenderContext& context, int side)
     make_tuples();
 }
 
+/// For each group a tuple of each region of the pixel. Lens and time regions go with them by the magic square
+/// with rows and columns shuffled in another way for each group, so that groups do not repeat one
+/// correlation.
 void InterleavedPattern::make_tuples() {
     const auto samples = static_cast<uint32_t>(sample_count()), groups = static_cast<uint32_t>(group_count());
     const SpreadSquare subpixels(nx_, ny_, side_, hash(seed_, kSubpixel)),
@@ -94,6 +98,9 @@ void InterleavedPattern::make_tuples() {
     }
 }
 
+/// A shuffle of the groups over the pixels of a block, from the block's place alone: the same whichever tile
+/// of the picture asks, and other blocks look unrelated. The product's upper half scales a hash to the range
+/// without a division.
 InterleavedPattern::Groups InterleavedPattern::groups_of_tile(int tx, int ty) const {
     Groups groups;
     const auto count = static_cast<uint32_t>(group_count());
@@ -111,6 +118,7 @@ float InterleavedPattern::coordinate(int pixel, float fraction) {
     return within_pixel(pixel, fraction);
 }
 
+/// Blocks start at multiples of their side, not at the tile's corner, so they are cut where tiles end.
 void InterleavedPattern::make_tile(const PixelRect& pixels, SampleTile& tile) const {
     begin_tile(pixels, tile);
     for (int ty = floor_divided(pixels.y0, side_); ty * side_ < pixels.y1; ++ty)
@@ -124,6 +132,7 @@ void InterleavedPattern::make_tile(const PixelRect& pixels, SampleTile& tile) co
         }
 }
 
+/// Sample s of the pixel is tuple s of its group: no random number is drawn for a pixel.
 void InterleavedPattern::make_pixel(int px, int py, int group, SampleTile& tile) const {
     size_t at = tile.first_of_pixel(px, py);
     for (int s = 0; s < sample_count(); ++s, ++at) {

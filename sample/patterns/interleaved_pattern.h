@@ -37,6 +37,7 @@ class InterleavedPattern final : public SamplePattern {
 
     int side() const { return side_; }
     int group_count() const { return side_ * side_; }
+    /// Of all groups, the samples of each one after another.
     int tuple_count() const { return group_count() * sample_count(); }
 
     /// Sample s of a pixel that has group g is tuple g * sample_count() + s.

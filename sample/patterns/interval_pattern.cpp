@@ -24,6 +24,8 @@ void shuffle(std::vector<uint32_t>& order, uint32_t pixel_hash) {
 
 }  // namespace
 
+/// The lens region of a sample is the same in all pixels, in an order that has nothing to do with that of
+/// times.
 IntervalPattern::IntervalPattern(const RenderContext& context)
     : SamplePattern(context),
       lens_of_(
@@ -37,6 +39,8 @@ void IntervalPattern::make_tile(const PixelRect& pixels, SampleTile& tile) const
             make_pixel(px, py, subpixels, tile.first_of_pixel(px, py), tile);
 }
 
+/// Only the subpixel regions are shuffled from pixel to pixel; lens and time regions are s's in all of them,
+/// and jitter moves samples within.
 void IntervalPattern::make_pixel(int px, int py, std::vector<uint32_t>& subpixels, size_t first,
                                  SampleTile& tile) const {
     const uint32_t pixel_hash = hash(seed_, static_cast<uint32_t>(px), static_cast<uint32_t>(py));
@@ -58,6 +62,7 @@ void IntervalPattern::make_pixel(int px, int py, std::vector<uint32_t>& subpixel
     }
 }
 
+/// Without motion all times are 0, and without a lens all lens points: the default spans.
 TimeSpan IntervalPattern::time_bounds(int sample) const {
     return motion_ ? time_region(static_cast<uint32_t>(sample), sample_count()) : TimeSpan{};
 }

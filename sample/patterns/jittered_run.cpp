@@ -93,7 +93,8 @@ HWY_INLINE void polygon_from_square(const LensOutline& outline, FloatLanes u, Fl
     y = hn::Mul(distance, on_rim(outline.y, outline.dy));
 }
 
-/// What samples have of their pixel: its only one's, or looked up.
+/// What samples have of their pixel: its only one's, or looked up. A gather of lanes costs about as much as
+/// the rest of a sample's place, so runs within one pixel are spared it.
 template <bool kOnePixel>
 struct PixelLanes {
     const RunPixels& pixels;
@@ -135,6 +136,8 @@ HWY_INLINE void store_rays(const Camera& camera, FloatLanes x, FloatLanes y, Flo
     }
 }
 
+/// The order of operations is that of the scalar place(), disk_from_square() and Camera::ray(): the bounds
+/// that StratifiedPattern gives for slots are made by these, and hold only for equal bits.
 template <bool kOnePixel>
 HWY_INLINE void make_samples(const RunRegions& regions, const RunPixels& pixels, const Camera& camera,
                              size_t first, size_t count, RunSamples& out) {
@@ -223,6 +226,8 @@ namespace trapeze {
 HWY_EXPORT(make_run_samples);
 HWY_EXPORT(interleave_rays);
 
+/// Several pixels of few samples make one run, so that vectors are full. Regions repeat from pixel to pixel;
+/// padding repeats them too, for vectors that reach past the end must read numbers.
 RunRegions::RunRegions(int columns, int rows, bool has_lens, bool has_motion,
                        const std::vector<uint32_t>& lens_of, const std::vector<uint32_t>& time_of)
     : nx(columns), ny(rows), lens(has_lens), motion(has_motion) {
@@ -241,6 +246,8 @@ RunRegions::RunRegions(int columns, int rows, bool has_lens, bool has_motion,
     }
 }
 
+/// For a level of adaptive sampling: the samples keep their index in the pixel, and with it their hash and
+/// their jitter, so that a level's samples are those of the whole pattern.
 RunRegions::RunRegions(const RunRegions& whole, std::span<const uint32_t> samples)
     : nx(whole.nx),
       ny(whole.ny),
@@ -257,11 +264,13 @@ RunRegions::RunRegions(const RunRegions& whole, std::span<const uint32_t> sample
     }
 }
 
+/// Two forms, since a run within one pixel has its pixel's numbers in all lanes, and need not look them up.
 void make_run_samples(const RunRegions& regions, const RunPixels& pixels, const Camera& camera, size_t first,
                       size_t count, RunSamples& out) {
     HWY_DYNAMIC_DISPATCH(make_run_samples)(regions, pixels, camera, first, count, out);
 }
 
+/// From planes to structures, whose order of members the vector code takes for granted: hence the checks.
 void interleave_rays(const RunSamples& samples, size_t count, AxisRay* rays) {
     static_assert(offsetof(AxisRay, ox) == 0 && offsetof(AxisRay, oy) == 4 && offsetof(AxisRay, oz) == 8 &&
                   offsetof(AxisRay, ux) == 12 && offsetof(AxisRay, uy) == 16 &&

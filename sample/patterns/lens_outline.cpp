@@ -19,7 +19,8 @@ double cross(const Point& a, const Point& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// A side whose middle is on the axis x, as an arc of a circle.
+/// A side whose middle is on the axis x, as an arc of a circle. All blades are this one turned; computed in
+/// doubles with portable functions, so that the lens is the same on every machine.
 class Blade {
   public:
     explicit Blade(const Aperture& aperture) {
@@ -83,6 +84,8 @@ class Blade {
 
 }  // namespace
 
+/// Chords are chosen by the area of their triangles and not by their length, for points are spread over
+/// triangles evenly.
 LensOutline::LensOutline(const Aperture& aperture) : density(aperture.density) {
     if (aperture.is_disk()) return;
     const Blade blade(aperture);

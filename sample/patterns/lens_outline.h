@@ -21,6 +21,7 @@ struct LensOutline {
 
     /// Empty for a disk.
     explicit LensOutline(const Aperture& aperture);
+    /// Corners; 0 for a disk.
     size_t size() const { return x.size(); }
 };
 

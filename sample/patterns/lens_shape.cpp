@@ -68,6 +68,8 @@ void add_quarter(const LensOutline& outline, int axis, Extent out, Extent across
 
 }  // namespace
 
+/// Four quarters of the square, each between its diagonals, become what the middle sees of two eighths of the
+/// outline; `place` is where on the outline, in corners, and `distance` how far out.
 V2f LensShape::from_square(float u, float v) const {
     if (outline_.size() == 0) return disk_from_square(u, v);
     const float a = 2 * u - 1, b = 2 * v - 1;
@@ -87,6 +89,8 @@ V2f LensShape::from_square(float u, float v) const {
             distance * (outline_.y[corner] + part * outline_.dy[corner])};
 }
 
+/// Cut into small parts, since the bound of a part is a product of its ranges of place and distance: coarse
+/// for a large region, close for a small one.
 LensBox LensShape::region(uint32_t index, int nx, int ny) const {
     if (outline_.size() == 0) return lens_region(index, nx, ny);
     const auto axis = [](uint32_t at, int count, int part) {

@@ -12,6 +12,8 @@
 
 namespace trapeze {
 
+/// The lens as patterns see it: a unit disk, or the outline of an aperture's blades, scaled by the radius
+/// later.
 class LensShape {
   public:
     explicit LensShape(const Aperture& aperture) : outline_(aperture) {}

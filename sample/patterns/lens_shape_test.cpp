@@ -16,6 +16,7 @@
 namespace trapeze {
 namespace {
 
+using testing::for_each_target;
 using testing::frame_of_samples;
 using testing::TestFrame;
 

@@ -5,7 +5,8 @@
 namespace trapeze {
 namespace {
 
-/// Siamese method: up and right, down when taken.
+/// Siamese method: up and right, down when taken. From the middle of the top row; columns and rows wrap. All
+/// values from 0 to n^2 - 1, with equal sums in rows, columns and diagonals.
 std::vector<uint32_t> odd_square(int n) {
     std::vector<uint32_t> square(static_cast<size_t>(n) * n);
     int row = 0, column = n / 2;
@@ -20,7 +21,9 @@ std::vector<uint32_t> odd_square(int n) {
     return square;
 }
 
-/// Counting up, with the cells on the diagonals of each 4 x 4 block counting down.
+/// Counting up, with the cells on the diagonals of each 4 x 4 block counting down. For n a multiple of 4: a
+/// value and its complement add up to the same everywhere, and each row and column has as many of one as of
+/// the other.
 std::vector<uint32_t> doubly_even_square(int n) {
     std::vector<uint32_t> square(static_cast<size_t>(n) * n);
     for (int row = 0; row < n; ++row)
@@ -32,7 +35,8 @@ std::vector<uint32_t> doubly_even_square(int n) {
     return square;
 }
 
-/// LUX: each cell of an odd square becomes 2 x 2 cells, walked in the shape of a letter.
+/// LUX: each cell of an odd square becomes 2 x 2 cells, walked in the shape of a letter. For n = 4 k + 2,
+/// from 6 on (Conway's method): each cell's four values take consecutive numbers.
 std::vector<uint32_t> singly_even_square(int n) {
     constexpr uint32_t kLetters[3][4] = {{3, 0, 1, 2}, {0, 3, 1, 2}, {0, 3, 2, 1}};  // L U X, row by row
     const int half = n / 2, middle = half / 2;  // rows 0..middle are L, then one of U, then X
@@ -53,6 +57,8 @@ std::vector<uint32_t> singly_even_square(int n) {
 
 }  // namespace
 
+/// Numbers count from 0, where the classical squares count from 1: sums are smaller by n, and equal all the
+/// same.
 std::vector<uint32_t> magic_square(int n) {
     if (n % 2 == 1) return odd_square(n);
     return n % 4 == 0 ? doubly_even_square(n) : singly_even_square(n);

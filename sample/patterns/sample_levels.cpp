@@ -93,6 +93,7 @@ class Quarters {
                 row_of(strata_.lens_of[sample])};
     }
 
+    /// Adds a sample to what its quarter has in each of its places, or takes it away (`by` -1).
     void count(size_t quarter, uint32_t sample, int by) {
         for (size_t i = 0; i < kSpreads; ++i) counts_[quarter][kSpreads * places_[sample][i] + i] += by;
     }
@@ -104,6 +105,8 @@ class Quarters {
         return sum;
     }
 
+    /// Simulated annealing with a temperature that falls evenly to 0. All exchanges of a sweep are tried in a
+    /// fixed order by hashed numbers: the result depends on the seed alone.
     void anneal(uint32_t seed) {
         const uint32_t sweeps = std::clamp(kMostExchanges / (6 * cells_), 1u, kMostSweeps);
         uint32_t random = seed;
@@ -133,7 +136,8 @@ class Quarters {
     std::array<std::vector<int>, 4> counts_;        ///< by quarter; by place, then spread
 };
 
-/// For each sample the one nearest on the lens' square, each pair once.
+/// For each sample the one nearest on the lens' square, each pair once. Quadratic in the samples of a pixel,
+/// and done once for a pattern.
 std::vector<SamplePair> lens_neighbours(const PixelStrata& strata, const std::vector<uint32_t>& samples) {
     const auto nx = static_cast<uint32_t>(strata.nx);
     const auto place = [&](uint32_t sample, int& x, int& y) {
@@ -169,7 +173,8 @@ std::vector<SamplePair> time_neighbours(const PixelStrata& strata, const std::ve
     return pairs;
 }
 
-/// The samples of cells side by side and one above the other, of squares of `side` regions.
+/// The samples of cells side by side and one above the other, of squares of `side` regions. Samples are
+/// subpixel regions here: a region's number is its place, row by row.
 std::vector<SamplePair> pixel_neighbours(const PixelStrata& strata, int side,
                                          const std::vector<uint32_t>& samples) {
     const auto nx = static_cast<uint32_t>(strata.nx), step = static_cast<uint32_t>(side);
@@ -220,6 +225,8 @@ class LevelSets {
 
 }  // namespace
 
+/// Made once for a pattern, before any pixel: from the whole pattern downwards, each set parted into
+/// quarters, until single levels are left.
 SampleLevels::SampleLevels(const PixelStrata& strata, int levels, uint32_t seed)
     : levels_(levels), all_(static_cast<size_t>(strata.nx) * static_cast<size_t>(strata.ny)) {
     const LevelSets sets(strata, levels, seed);

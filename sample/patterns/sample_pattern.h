@@ -16,7 +16,9 @@
 
 namespace trapeze {
 
-/// Makes the samples of any rectangle of pixels, from any thread; nothing is remembered between calls.
+/// Makes the samples of any rectangle of pixels, from any thread; nothing is remembered between calls. Random
+/// numbers are hashes of pixel, sample and use (core/random.h), never a state: so tiles may be made in any
+/// order and size.
 class SamplePattern {
   public:
     virtual ~SamplePattern() = default;

@@ -42,6 +42,8 @@ StratumSide disk_x_range(StratumSide a, StratumSide b) {
 
 }  // namespace
 
+/// Sorting by hashes gives each order the same chance, and the same one for a seed on any machine: equal
+/// hashes keep their order.
 std::vector<uint32_t> hashed_permutation(size_t count, uint32_t seed) {
     std::vector<uint32_t> order(count);
     std::iota(order.begin(), order.end(), 0u);
@@ -50,6 +52,9 @@ std::vector<uint32_t> hashed_permutation(size_t count, uint32_t seed) {
     return order;
 }
 
+/// Written out with polynomials, and repeated in vectors by jittered_run.cpp operation by operation. The
+/// concentric map: squares about the middle become circles, and equal areas stay equal. Library sines would
+/// differ between machines, and from the vectors' by a last bit.
 V2f disk_from_square(float u, float v) {
     const float a = 2 * u - 1, b = 2 * v - 1;
     const bool wide = std::abs(a) > std::abs(b);
@@ -66,6 +71,8 @@ float place(uint32_t index, float jitter, int count) {
     return std::min((static_cast<float>(index) + jitter) / static_cast<float>(count), kBelowOne);
 }
 
+/// The largest float below pixel + 1: a jittered place that rounds up to the next pixel is held back to it.
+/// Neighbouring floats are neighbouring integers by their bits.
 float last_place_of(int pixel) {
     // nextafter(pixel + 1, pixel), which takes a library's call for each pixel.
     if (pixel == -1) return -std::numeric_limits<float>::denorm_min();
@@ -81,6 +88,8 @@ TimeSpan time_region(uint32_t index, int count) {
     return {place(index, 0, count), place(index, 1, count)};  // every step of place() is monotone
 }
 
+/// From exact borders in doubles, grown by what disk_from_square() may round. A box about the region's image,
+/// which is curved: it holds all points, and others too.
 LensBox lens_region(uint32_t index, int nx, int ny) {
     const auto axis = [](uint32_t at, int count) {
         return StratumSide{2.0 * at / count - 1, 2.0 * (at + 1) / count - 1};

@@ -8,13 +8,15 @@
 namespace trapeze {
 namespace {
 
-/// Subpixel region -> lens region.
+/// Subpixel region -> lens region: a magic square where there is one [Hou10 sec. 3.4], else some permutation.
+/// The same in all pixels.
 std::vector<uint32_t> lens_permutation(int nx, int ny, uint32_t seed) {
     if (nx == ny && nx >= 3) return magic_square(nx);
     return hashed_permutation(static_cast<size_t>(nx) * ny, hash(seed, kLensU));
 }
 
-/// Subpixel region -> time region: the lens permutation with its rows and columns shuffled.
+/// Subpixel region -> time region: the lens permutation with its rows and columns shuffled. Made from the
+/// lens' and not anew, so that time is as well spread over the pixel as the lens is, and not in step with it.
 std::vector<uint32_t> time_permutation(const std::vector<uint32_t>& lens_of, int nx, int ny, uint32_t seed) {
     const std::vector<uint32_t> columns = hashed_permutation(nx, hash(seed, kShuffle, 0));
     const std::vector<uint32_t> rows = hashed_permutation(ny, hash(seed, kShuffle, 1));
@@ -28,6 +30,8 @@ std::vector<uint32_t> time_permutation(const std::vector<uint32_t>& lens_of, int
 
 }  // namespace
 
+/// Permutations are drawn once, for all pixels; what differs from pixel to pixel is the jitter and the shift
+/// of times.
 StratifiedPattern::StratifiedPattern(const RenderContext& context)
     : SamplePattern(context),
       lens_of_(lens_permutation(nx_, ny_, context.seed)),
@@ -49,6 +53,8 @@ uint32_t StratifiedPattern::pixel_hash(int px, int py) const {
     return hash(seed_, static_cast<uint32_t>(px), static_cast<uint32_t>(py));
 }
 
+/// Neighbouring pixels have the same pairing of lens and time; a shift of time by pixel keeps it from being
+/// seen.
 uint32_t StratifiedPattern::time_shift_of(uint32_t pixel_hash) const {
     // Without defocus there is no correlation with the lens to break.
     if (!camera_.has_lens()) return 0;
@@ -67,6 +73,7 @@ LensBox StratifiedPattern::lens_bounds(int sample) const {
     return camera_.has_lens() ? lens_.region(lens_of_[sample], nx_, ny_) : LensBox{};
 }
 
+/// Runs of whole pixels along a row, as many as fill the lanes; a run ends with the row, and with the tile.
 void StratifiedPattern::make_tile(const PixelRect& pixels, SampleTile& tile) const {
     begin_tile(pixels, tile);
     RunPixels run;
@@ -87,6 +94,8 @@ void StratifiedPattern::make_tile(const PixelRect& pixels, SampleTile& tile) con
     }
 }
 
+/// Pixels of a list each make runs of their own, as few as their levels have samples; in_pixel says which
+/// samples of the whole pattern these are.
 void StratifiedPattern::make_levels(const PixelRect& within, std::span<const PixelPlace> pixels, int from,
                                     int to, SampleTile& tile) const {
     tile.pixels = within;

@@ -13,7 +13,8 @@
 
 namespace trapeze {
 
-/// nx * ny samples a pixel; the natural pattern of most methods.
+/// nx * ny samples a pixel; the natural pattern of most methods. Where both a lens and motion blur, pixels
+/// shift their times by a hash: otherwise a point of the lens would always go with the same time.
 class StratifiedPattern final : public SamplePattern {
   public:
     explicit StratifiedPattern(const RenderContext& context);
@@ -39,6 +40,8 @@ class StratifiedPattern final : public SamplePattern {
     LensBox lens_bounds(int sample) const;
 
   private:
+    /// Of the pixel's place in the picture, negative in its border; the same in all tiles that have the
+    /// pixel.
     uint32_t pixel_hash(int px, int py) const;
     uint32_t time_shift_of(uint32_t pixel_hash) const;
     void make_run(const RunRegions& regions, const RunPixels& run, size_t count, size_t to, RunSamples& made,

@@ -21,6 +21,7 @@ struct Range {
     void add(double at) { min = std::min(min, at), max = std::max(max, at); }
 };
 
+/// The least and greatest product of two intervals, whatever their signs.
 Range product(const Range& a, const Range& b) {
     const double p[4] = {a.min * b.min, a.min * b.max, a.max * b.min, a.max * b.max};
     return {*std::min_element(p, p + 4), *std::max_element(p, p + 4)};
@@ -56,6 +57,7 @@ GridBound bound_of(const Camera& camera, double absolute_max, double z_min) {
 
 }  // namespace
 
+/// A span that ends within a segment covers a part of it; of those between first and last, all.
 void segment_parts(const TimeSpan& time, int key_count, std::vector<SegmentPart>& parts) {
     const MotionSegment first = segment_at(time.min, key_count), last = segment_at(time.max, key_count);
     for (int segment = first.index; segment <= last.index; ++segment)
@@ -63,6 +65,8 @@ void segment_parts(const TimeSpan& time, int key_count, std::vector<SegmentPart>
                          segment == last.index ? last.local : 1.0f});
 }
 
+/// Grids write to places of their own, which are known beforehand: no lock, and the same result for any
+/// number of threads.
 GridBounds::GridBounds(const Camera& camera, const Grids& grids)
     : camera_(camera), bounds_(grids.grids.size()), first_segment_(grids.grids.size()) {
     size_t segments = 0;
@@ -74,6 +78,8 @@ GridBounds::GridBounds(const Camera& camera, const Grids& grids)
     tbb::parallel_for(size_t{0}, bounds_.size(), [&](size_t i) { bound_grid(grids.grids[i], i); });
 }
 
+/// One box for each segment's start and end: within a segment vertices move along lines, so the box at a time
+/// between is within the mix of the two. Threads bound different grids, and write to places of their own.
 void GridBounds::bound_grid(const Grid& grid, size_t index) {
     double absolute_max = 0, z_min = 1e300;
     const auto size = static_cast<size_t>(grid.shape.plane_size());  // padding repeats vertices
@@ -101,6 +107,8 @@ void GridBounds::bound_grid(const Grid& grid, size_t index) {
     bounds_[index] = bound_of(camera_, absolute_max, z_min);
 }
 
+/// Interval arithmetic over the boxes at the ends of all parts: place over depth, then the lens' shift by
+/// depth times the lens' part, then rounding. Loose, but it is asked for each grid, tile and slot.
 SlotBound GridBounds::slot_bound(size_t grid, const std::vector<SegmentPart>& parts,
                                  const LensBox& lens) const {
     const GridBound& bound = bounds_[grid];

@@ -19,7 +19,8 @@ struct RoundingSlack {
     float near = 0, far = 0;
 };
 
-/// What holds for one grid at all of its keys.
+/// What holds for one grid at all of its keys. Made once for a region; slots and tuples then bound the grid
+/// further, for their times and lens points.
 struct GridBound {
     RoundingSlack slack;
     float z_min = 0;        ///< over all keys

@@ -6,6 +6,8 @@
 
 namespace trapeze {
 
+/// Bins and bounds are all that is prepared; what a method needs for a micropolygon it makes when the
+/// micropolygon comes.
 Rasterizer::Rasterizer(const VisibilityInput& input, int tile_side)
     : context_(input.context),
       grids_(input.grids),
@@ -15,6 +17,8 @@ Rasterizer::Rasterizer(const VisibilityInput& input, int tile_side)
       bins_(input.context.camera, input.grids, tile_side),
       bounds_(input.context.camera, input.grids) {}
 
+/// Culling needs grids front to back. The hits do not depend on their order: equal depths are told apart by
+/// id.
 void Rasterizer::resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                          SampleStats& stats) const {
     std::vector<uint32_t>& grids = scratch.own.of<RasterizerScratch>().grids;
@@ -32,6 +36,7 @@ void Rasterizer::resolve(const SampleTile& samples, HitBuffer& hits, SampleScrat
         buffer_of_loose_hits(scratch, samples.size(), hits);
 }
 
+/// Rasterizers have no tree: what they keep for finding grids is counted in its place.
 BuildStats Rasterizer::build_stats() const {
     BuildStats stats;
     stats.tree_bytes = bins_.bytes() + bounds_.bytes();

@@ -13,6 +13,8 @@ struct RasterizerScratch {
     std::vector<uint32_t> grids;  ///< that the tile may see
 };
 
+/// The base of the rasterizers: finds the grids that a tile may see, lets the method put them into samples,
+/// and makes the hit buffer of what it found. Refers to the context and the grids, which outlive it.
 class Rasterizer : public Visibility {
   public:
     void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
@@ -34,6 +36,7 @@ class Rasterizer : public Visibility {
     const Grid& grid(uint32_t index) const { return grids_.grids[index]; }
     const GridBounds& bounds() const { return bounds_; }
     bool cull() const { return cull_; }
+    /// Then the nearest hit of a sample is all of its list.
     bool all_opaque() const { return all_opaque_; }
 
   private:

@@ -24,6 +24,8 @@ bool is_empty(const RasterBox& box) {
 
 }  // namespace
 
+/// The bins are anchored at multiples of the side, as the picture's tiles are. Rows of bins are filled each
+/// by one thread, in the order of the grids: no lock, and the same lists each time.
 TileBins::TileBins(const Camera& camera, const Grids& grids, int tile_side)
     : area_{anchor(camera.crop.x0, tile_side), anchor(camera.crop.y0, tile_side), camera.crop.x1,
             camera.crop.y1},
@@ -37,6 +39,7 @@ TileBins::TileBins(const Camera& camera, const Grids& grids, int tile_side)
     tbb::parallel_for(0, rows_, [this](int row) { fill_row(row); });
 }
 
+/// Clamped as doubles: a bound beyond the range of int would overflow before it could be clamped.
 TileBins::Span TileBins::span(double min, double max, int origin, int side, int count) {
     const auto tile = [&](double at) {
         return static_cast<int>(std::clamp(std::floor((at - origin) / side), 0.0, count - 1.0));
@@ -59,6 +62,7 @@ void TileBins::fill_row(int row) {
     }
 }
 
+/// In ascending order, and each grid once, however many bins have it.
 void TileBins::find(const PixelRect& pixels, std::vector<uint32_t>& found) const {
     found.clear();
     if (pixels.empty()) return;

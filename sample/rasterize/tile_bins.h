@@ -25,6 +25,7 @@ class TileBins {
     size_t bytes() const;
 
   private:
+    /// From the first to the last, both included.
     struct Span {
         int first, last;  ///< tiles along an axis, inclusive; empty when first > last
     };
@@ -32,6 +33,7 @@ class TileBins {
     static Span span(double min, double max, int origin, int side, int count);
     Span columns(double min, double max) const { return span(min, max, area_.x0, side_, columns_); }
     Span rows(double min, double max) const { return span(min, max, area_.y0, side_, rows_); }
+    /// Looks at all grids for one row of bins; rows are filled in parallel.
     void fill_row(int row);
 
     PixelRect area_;  ///< the crop, from its first tile's corner

@@ -5,6 +5,8 @@
 
 namespace trapeze {
 
+/// Planes come as [segment][component]. Ids of micropolygons depend on the shape alone, which mostly is the
+/// one of the grid before.
 void VertexRows::load(const Grid& grid) {
     const GridShape& shape = grid.shape;
     row_length_ = shape.vertices_u(), count_ = shape.vertex_count();

@@ -18,6 +18,8 @@ namespace {
 /// Rays of a beam. 64 to 512 are within 10 % of each other in tests/bench/trace_bench.cpp.
 constexpr size_t kGroupSize = 128;
 
+/// From words to a tree's options, in this and the next four; the words have been checked against the table
+/// (complete_spec), and first values are the defaults.
 PaperTreeOptions paper_options(const MethodSpec& spec) {
     using Bounds = PaperTreeOptions::Bounds;
     PaperTreeOptions options;
@@ -29,6 +31,7 @@ PaperTreeOptions paper_options(const MethodSpec& spec) {
     return options;
 }
 
+/// Options of the split builder alone are taken for "msbvh"; the others keep the defaults, whatever is said.
 MovingTreeOptions moving_options(const MethodSpec& spec) {
     MovingTreeOptions options;
     options.leaf = spec.number("leaf");
@@ -41,20 +44,24 @@ MovingTreeOptions moving_options(const MethodSpec& spec) {
     return options;
 }
 
+/// The plane's time is that at which positions of moving micropolygons are taken when a split is chosen.
 KdTreeOptions kd_options(const MethodSpec& spec) {
     KdTreeOptions options;
     options.plane_time = spec["plane"] == "0" ? 0.0f : spec["plane"] == "1" ? 1.0f : 0.5f;
     if (spec["weight"] == "whole") options.weight = KdTreeOptions::Weight::Whole;
+    if (spec["guests"] == "return") options.guests = KdTreeOptions::Guests::Return;
     options.budget = spec.number("duplicates");
     options.leaf = spec.number("leaf");
     options.mailbox = spec.is_on("mailbox");
     return options;
 }
 
+/// Values have been checked against the method's table of options, so nothing here can fail.
 InsertionOptions insertion_options(const MethodSpec& spec) {
     InsertionOptions options;
     options.passes = spec["tree"] == "dynamic" ? 2 : 0;
     if (spec["order"] == "given") options.order = InsertionOptions::Order::Given;
+    if (spec["reinsert"] == "root") options.reinsertion = InsertionOptions::Reinsertion::Root;
     if (spec["thinning"] != "off") options.thinning = std::stof(std::string(spec["thinning"]));
     return options;
 }
@@ -99,7 +106,8 @@ void tell_of_budget(const VisibilityInput& input, const BuildStats& stats) {
                                         "budget");
 }
 
-/// What a thread needs for rays through a binary tree.
+/// What a thread needs for rays through a binary tree. `tile_top` and `group_top` are copies of what a beam
+/// keeps of the levels above grids: a tile's, and from it a group's.
 struct BinaryScratch {
     RayOrder rays;
     TopLevel tile_top, group_top;  ///< what of the tree the tile, and a group of its rays, may meet
@@ -197,6 +205,7 @@ class BinaryRayTraced final : public Visibility {
         }
     }
 
+    /// Trees without a part to choose from have only one way in.
     template <class Policy>
     void trace(const TopLevel* part, TraceRay& ray, Policy& policy, SampleStats& stats) const {
         if constexpr (kHasParts<Tree>) {
@@ -206,6 +215,7 @@ class BinaryRayTraced final : public Visibility {
         }
     }
 
+    /// Opaque grids only: each ray keeps its nearest hit, and shortens itself to it as it goes.
     void resolve_closest(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                          SampleStats& stats) const {
         scratch.nearest.resize(samples.size());
@@ -218,6 +228,8 @@ class BinaryRayTraced final : public Visibility {
         buffer_of_nearest(scratch, samples.size(), hits);
     }
 
+    /// With layers: each ray collects hits to its first opaque one, within the window. A sample whose list
+    /// was cut says so, or it would pass for complete.
     void resolve_layers(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                         SampleStats& stats) const {
         const LayerWindow& window = scratch.window;
@@ -253,6 +265,8 @@ class BinaryRayTraced final : public Visibility {
 
 }  // namespace
 
+/// The tree is a template argument of the visibility, so that its traversal is inlined into the loop over
+/// rays. tree=wide comes here where there are too many grids for its ids.
 std::unique_ptr<Visibility> prepare_binary_raytrace(const VisibilityInput& input) {
     const std::string_view tree = input.spec["tree"];
     if (tree == "mbkd") return std::make_unique<BinaryRayTraced<KdTree>>(input);

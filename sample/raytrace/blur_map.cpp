@@ -22,7 +22,8 @@ constexpr float kLargestReach = 256;
 /// What lies this much farther than the nearest of a cell is taken for hidden.
 constexpr float kHiddenBeyond = 1.5f;
 
-/// In the picture, of the grid's middle; as far as it is before the camera.
+/// In the picture, of the grid's middle; as far as it is before the camera. In pixels, along straight pieces
+/// between keys.
 float length_of_way(const Camera& camera, const Grid& grid) {
     if (!grid.moves()) return 0;
     float length = 0;
@@ -37,6 +38,8 @@ float length_of_way(const Camera& camera, const Grid& grid) {
     return length;
 }
 
+/// Taken at the middle of the shutter, by corners and the middle vertex: a map for choosing orders wants
+/// speed and no bounds.
 Seen look_at(const Camera& camera, const Grid& grid) {
     Seen seen;
     const int nu = grid.shape.nu, nv = grid.shape.nv;
@@ -66,6 +69,8 @@ int cell_of(float raster, int count) {
 
 }  // namespace
 
+/// Two rounds over the grids of each cell: first the nearest depth, then the sums over those that are not far
+/// behind it. Sums are added in the order of the grids, for any number of threads.
 BlurMap::BlurMap(const Camera& camera, const Grids& grids)
     : columns_(std::max(1, (camera.width + kSide - 1) / kSide)),
       rows_(std::max(1, (camera.height + kSide - 1) / kSide)),
@@ -89,6 +94,8 @@ BlurMap::BlurMap(const Camera& camera, const Grids& grids)
     });
 }
 
+/// All products that a count of grids met by a group of rays can need (Footprint::meets in bundle_order.cpp),
+/// so that one sum serves every order that is tried.
 void BlurMoments::add(float lens, float motion, float grid) {
     const float inverse = 1 / grid, relative_lens = lens * inverse, relative_motion = motion * inverse;
     one += 1, r += inverse, p += relative_lens, q += relative_motion;
@@ -96,6 +103,8 @@ void BlurMoments::add(float lens, float motion, float grid) {
     pp += relative_lens * relative_lens, pq += relative_lens * relative_motion;
 }
 
+/// The cell at the middle speaks for the whole tile: what it decides is the order of rays, which changes
+/// speed and no hit.
 const BlurMoments& BlurMap::at(const PixelRect& pixels) const {
     const auto middle = [](int a, int b) { return 0.5f * (static_cast<float>(a) + static_cast<float>(b)); };
     const int x = cell_of(middle(pixels.x0, pixels.x1), columns_),

@@ -25,6 +25,7 @@ class BlurMap {
   public:
     static constexpr int kSide = 16;
 
+    /// Looks at each grid once, by its bound and a few of its vertices; it keeps no reference to either.
     BlurMap(const Camera& camera, const Grids& grids);
 
     /// In the middle of some pixels, which may reach past the image.

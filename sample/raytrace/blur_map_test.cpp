@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "sample/raytrace/bundle_order.h"
-#include "sample/raytrace/tile_order.h"
+#include "sample/raytrace/sample_order.h"
 
 namespace trapeze {
 namespace {
@@ -45,15 +45,15 @@ TEST(BlurMap, WhereThereAreNoGridsOrNoPixelsItHasNothing) {
     EXPECT_EQ(map.at({5000, 5000, 5016, 5016}).one, 0);
 }
 
-TEST(TileOrder, IsAPermutationRememberedWhileItServes) {
+TEST(SampleOrder, IsAPermutationRememberedWhileItServes) {
     Camera camera;
     camera.width = camera.height = 64, camera.lens_radius = 1;
     const Grids grids;
-    const TileOrder still(camera, grids, false), other(camera, grids, false);
+    const SampleOrder still(camera, grids, false), other(camera, grids, false);
     SampleTile tile;
     tile.pixels = {16, 16, 32, 32}, tile.samples_per_pixel = 4;
     tile.resize(16 * 16 * 4);
-    TileOrderScratch scratch;
+    SampleOrderScratch scratch;
     const auto first = still.of(tile, scratch);
     std::vector<uint32_t> sorted(first.begin(), first.end());
     std::sort(sorted.begin(), sorted.end());

@@ -84,6 +84,7 @@ HWY_EXPORT(add_keys);
 
 namespace {
 
+/// Along the Z-order curve, so that pixels which follow each other lie close by in both directions.
 void list_first_samples(const SampleTile& samples, std::vector<uint32_t>& first) {
     first.clear();
     for_each_first_sample(samples, [&](uint32_t sample) { first.push_back(sample); });
@@ -112,6 +113,8 @@ struct Footprint {
     }
 };
 
+/// An order is keys of block, lens and time; consecutive rays fill a cell of them, and where they are more
+/// than a cell has, they spread over the next cells in the order of the key.
 Footprint footprint(float rays, const BundleOrder& order, float samples_per_pixel) {
     const float block = static_cast<float>(order.block_side * order.block_side),
                 lens_cells = static_cast<float>(1 << order.lens_bits),
@@ -141,6 +144,8 @@ float cost_of(const BlurMoments& blur, const BundleOrder& order, int samples_per
 
 }  // namespace
 
+/// All orders are tried, some fifty: a tile has many more rays than that. Among equals the first is kept: the
+/// smallest blocks, and the coarsest cells.
 BundleOrder best_order(const BlurMoments& blur, int samples_per_pixel, RayBlur blurs) {
     BundleOrder best;
     float least = HUGE_VALF;
@@ -154,6 +159,8 @@ BundleOrder best_order(const BlurMoments& blur, int samples_per_pixel, RayBlur b
     return best;
 }
 
+/// A counting sort by key over the Z-ordered pixels: stable, so that rays of one key keep the order of their
+/// pixels.
 void order_bundles(const SampleTile& samples, RayBlur blur, const BundleOrder& order,
                    BundleOrderScratch& scratch, std::vector<uint32_t>& result) {
     const int width = samples.pixels.width(), height = samples.pixels.height();

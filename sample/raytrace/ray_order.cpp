@@ -20,7 +20,8 @@ void z_order(const SampleTile& samples, std::vector<uint32_t>& order) {
     });
 }
 
-/// Quantises a value across the range that a tile's samples take.
+/// Quantises a value across the range that a tile's samples take. Ranges are the tile's own, so that 4 bits
+/// tell its rays apart however narrow the view is.
 struct Quantiser {
     float from = 0, scale = 0;
 
@@ -37,7 +38,8 @@ struct Quantiser {
     }
 };
 
-/// Stable counting sort of result.order by result.keys (by sample).
+/// Stable counting sort of result.order by result.keys (by sample). Linear in the rays, as keys are small
+/// numbers.
 void sort_by_keys(RayOrder& result) {
     std::array<uint32_t, (1 << 3 * kBits) + 1> start{};
     for (const uint32_t key : result.keys) ++start[key + 1];
@@ -49,6 +51,8 @@ void sort_by_keys(RayOrder& result) {
 
 }  // namespace
 
+/// Keys hold time in the low bits and the direction above: direction is the more significant, as it is sorted
+/// by last.
 void order_rays(const SampleTile& samples, RayBlur blur, RayOrder& result) {
     z_order(samples, result.order);
     if ((!blur.motion && !blur.lens) || samples.size() == 0) return;

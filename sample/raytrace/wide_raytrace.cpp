@@ -8,7 +8,7 @@
 #include "accel/wide/bundle.h"
 #include "accel/wide/single_ray.h"
 #include "sample/hit_lists.h"
-#include "sample/raytrace/tile_order.h"
+#include "sample/raytrace/sample_order.h"
 
 namespace trapeze {
 namespace {
@@ -22,6 +22,8 @@ float plane_reach(float scale, float offset, int pixels) {
     return std::max(std::abs(offset), std::abs(offset + scale * static_cast<float>(pixels))) + border;
 }
 
+/// How far slopes and origins of rays may go, both axes together: the tree's boxes are rounded outwards by
+/// what that makes of its compressed numbers.
 RayReach reach_of(const Camera& camera) {
     const float plane = plane_reach(camera.plane_scale_x, camera.plane_offset_x, camera.width) +
                         plane_reach(camera.plane_scale_y, camera.plane_offset_y, camera.height);
@@ -30,6 +32,8 @@ RayReach reach_of(const Camera& camera) {
     return {lens_slope, plane + lens};
 }
 
+/// The visibility of a WideTree: orders a tile's rays, traces them bundle by bundle, and makes hit lists.
+/// While a bundle is traced the next one's rays are named to it, so that they can be fetched ahead.
 class WideRayTraced final : public Visibility {
   public:
     explicit WideRayTraced(const VisibilityInput& input)
@@ -44,7 +48,7 @@ class WideRayTraced final : public Visibility {
                  SampleStats& stats) const override {
         WideScratch& own = scratch.own.of<WideScratch>();
         const std::span<const uint32_t> all =
-            wanted_of(order_.of(samples, scratch.own.of<TileOrderScratch>()), scratch.window, own.wanted);
+            wanted_of(order_.of(samples, scratch.own.of<SampleOrderScratch>()), scratch.window, own.wanted);
         // Where every grid is opaque the hits need no list: they are written to their places.
         std::vector<Hit>& nearest = all_opaque_ ? hits.hits : scratch.nearest;
         if (all_opaque_)
@@ -148,6 +152,7 @@ class WideRayTraced final : public Visibility {
         });
     }
 
+    /// Only when costs are asked for: the traversal then adds to these arrays, by ray of the bundle.
     static void count_costs(WideScratch& own) {
         own.tests.assign(RayBundle::kRoom, 0);
         own.nodes.assign(RayBundle::kRoom, 0);
@@ -192,7 +197,7 @@ class WideRayTraced final : public Visibility {
     bool lens_, all_opaque_;
     WideTree tree_;
     bool motion_;  ///< any grid moves; the samples' times may still be all the same
-    TileOrder order_;
+    SampleOrder order_;
 };
 
 }  // namespace

@@ -42,6 +42,8 @@ PointBasedCall::PointBasedCall(Run& run, const Step& step, std::span<const Opera
     tree_ = arguments_.cloud.empty() ? find_scene(scene, of_discs) : find_cloud(*library);
     // What is made of the scene is in the current space.
     if (tree_ && !arguments_.cloud.empty() && !set_space()) tree_ = nullptr;
+    if (tree_ && arguments_.sets("hitdist"))
+        run.warn(step, "\"hitdist\" is not known of point clouds: it is 1e30", "pointbased hitdist");
 }
 
 /// Says why there is no cloud.
@@ -185,6 +187,8 @@ void PointBasedCall::put(const AskingLane& lanes, const SurfelRaster& raster, co
     for (const RayArguments::Output& output : arguments_.outputs) {
         if (output.name == "occlusion") put_lanes(*output.operand, lanes.first, lanes.count, V3f(hidden));
         if (output.name == "environmentcolor") put_lanes(*output.operand, lanes.first, lanes.count, sky);
+        if (output.name == "hitdist")  // discs hide parts of the sky together: no way is hit by one
+            put_lanes(*output.operand, lanes.first, lanes.count, V3f(kInfinity));
         if (output.name != "environmentdir") continue;
         V3f way = raster.open_way();
         if (moved_) from_space_.multDirMatrix(V3f(way), way);

@@ -9,9 +9,11 @@
 
 namespace trapeze::rsl {
 
-/// Indices into the code, one for each instruction; kNone where there is nothing to name.
+/// Indices into the code, one for each instruction; kNone where there is nothing to name. An If without Else
+/// has no middle; a Loop's middle is its LoopStep, a Gather's its GatherElse.
 struct Blocks {
     static constexpr size_t kNone = ~size_t{0};
+    /// The code is well nested, as the generator makes it; one pass with a stack.
     explicit Blocks(const Code& code);
 
     std::vector<size_t> end;      ///< of an opening instruction, and of its middle: the closing one

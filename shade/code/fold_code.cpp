@@ -12,7 +12,8 @@
 namespace trapeze::rsl {
 namespace {
 
-/// Runs one operation on constants, by the kernel that would run it on grids.
+/// Runs one operation on constants, by the kernel that would run it on grids. Using the kernel itself makes
+/// folding exact on every machine: a value folded at compile time has the bits that the run would have made.
 class ConstantMachine {
   public:
     /// The values of the output; nothing when the operation has no kernel.
@@ -97,6 +98,7 @@ class Folder {
         return copy.version == version(id) && copy.of_version == version(copy.of) ? copy.of : id;
     }
 
+    /// What was known before is kept for the end of the block, where it holds again.
     void learn_copy(RegisterId id, RegisterId of) {
         const auto known = copies_.find(id);
         if (!undo_.empty())
@@ -217,6 +219,7 @@ class Folder {
         return instruction.input_count() > 0;
     }
 
+    /// A new register each time: equal constants that folding makes are not shared.
     RegisterId add_constant(Type type, std::vector<float> values) {
         Register r;
         r.kind = Register::Kind::Constant;
@@ -286,6 +289,7 @@ class Folder {
         if (!undo_.empty()) undo_.back().keys.push_back(std::move(key));
     }
 
+    /// The source place and the region stay: the instruction still stands where it stood.
     static void make_move(Instruction& instruction, RegisterId from) {
         instruction.op = Op::Move;
         instruction.immediate = 0;

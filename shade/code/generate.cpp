@@ -34,7 +34,8 @@ std::unique_ptr<Program> Generator::run() {
     return std::move(program_);
 }
 
-/// Predefined variables that the renderer does not want changed: what follows works on copies.
+/// Predefined variables that the renderer does not want changed: what follows works on copies. Once at the
+/// body's beginning: from there on the name means the copy, in functions that are inlined as well.
 void Generator::copy_written_globals() {
     for (const auto& variable : shader_.globals) {
         if (!variable->copied) continue;
@@ -44,7 +45,8 @@ void Generator::copy_written_globals() {
     }
 }
 
-/// Defaults may name earlier parameters and call functions.
+/// Defaults may name earlier parameters and call functions. Their code is kept apart from the body's, one
+/// piece for each parameter, since a value of the scene's takes its place (Machine::run_initial()).
 void Generator::add_parameters() {
     for (const auto& variable : shader_.parameters) {
         ProgramParameter& parameter = program_->parameters.emplace_back();
@@ -74,7 +76,8 @@ RegisterId Generator::add_register(Register::Kind kind, Type type, std::string n
     return static_cast<RegisterId>(program_->registers.size() - 1);
 }
 
-/// One register for each number; NaN, which equals nothing, gets a new one each time.
+/// One register for each number; NaN, which equals nothing, gets a new one each time. -0 and 0 are equal, and
+// share the register of the one that came first. A NaN as a key would break the map's order.
 RegisterId Generator::constant(float value) {
     if (value == value) {
         if (const auto known = numbers_.find(value); known != numbers_.end()) return known->second;
@@ -85,6 +88,7 @@ RegisterId Generator::constant(float value) {
     return id;
 }
 
+/// Shared by all that name the same text. Constants are never written to, so sharing is safe.
 RegisterId Generator::constant_text(const std::string& text) {
     const auto [known, is_new] = texts_.try_emplace(text, 0);
     if (is_new) {
@@ -94,7 +98,8 @@ RegisterId Generator::constant_text(const std::string& text) {
     return known->second;
 }
 
-/// A predefined variable, whether the source names it or an operation needs it unnamed.
+/// A predefined variable, whether the source names it or an operation needs it unnamed. `globals` of the
+/// program is the list of what the machine has to fill before a run.
 RegisterId Generator::global(std::string_view name, Base base) {
     if (const auto known = by_name_.find(name); known != by_name_.end()) return known->second;
     const RegisterId id = add_register(Register::Kind::Global, {base, 0}, std::string(name));
@@ -103,7 +108,8 @@ RegisterId Generator::global(std::string_view name, Base base) {
     return id;
 }
 
-/// Locals get their register when they are first met; a function that is inlined again has new ones.
+/// Locals get their register when they are first met; a function that is inlined again has new ones. Keyed by
+/// the variable of the tree: names may come again in other scopes.
 RegisterId Generator::register_of(const Variable& variable) {
     switch (variable.kind) {
         case Variable::Kind::Global:
@@ -154,7 +160,8 @@ void Generator::open(Op op, Ids outputs, const Ids& inputs) {
     region_ = ++last_region_;
 }
 
-/// The other half is a region of its own, outside of which lanes that it switches off go on.
+/// The other half is a region of its own, outside of which lanes that it switches off go on. The else is a
+/// region of its own: what the first half has computed need not have been, for lanes that come here.
 void Generator::turn_to_else(RegisterId decision) {
     region_ = open_regions_.back();
     emit(Op::Else, {}, {decision});

@@ -13,7 +13,8 @@ namespace {
 /// Inlining recurses on the processor's own stack, a few frames for each call.
 constexpr int kMaxCallDepth = 200;
 
-/// Which arguments of a call the function sets; those past the letters are inputs.
+/// Which arguments of a call the function sets; those past the letters are inputs. A letter of a row stands
+/// for one argument each; see Builtin for them.
 std::vector<bool> outputs_of(const Builtin& builtin, size_t arguments) {
     std::vector<bool> outputs(arguments, false);
     size_t at = 0;
@@ -59,6 +60,8 @@ int axis_of_function(std::string_view name) {
 
 }  // namespace
 
+/// A function of the source leaves its value in a register of its own, which is then moved to where it is
+/// wanted.
 RegisterId Generator::call_value(const Expression& e, std::optional<RegisterId> into) {
     if (e.function) return moved(function_value(e), e.type.base, into);
     return builtin_value(e, into);
@@ -105,7 +108,8 @@ RegisterId Generator::builtin_value(const Expression& e, std::optional<RegisterI
     return result;
 }
 
-/// Predefined variables that a function reads without being given them.
+/// Predefined variables that a function reads without being given them. In front where the operation's row in
+/// op_table.def has P first, otherwise behind the arguments.
 void Generator::add_unnamed_inputs(Op op, Ids& inputs) {
     if (op_traits::has(op, op_traits::kNeedsNg) && inputs.size() == 2)
         inputs.push_back(global("Ng", Base::Normal));
@@ -120,7 +124,8 @@ void Generator::add_unnamed_inputs(Op op, Ids& inputs) {
     global("N", Base::Normal);  // lights may ask for it
 }
 
-/// Functions that are other operations than their table's.
+/// Functions that are other operations than their table's. The machine has few operations and each a fixed
+/// number of operands; what can be said by others costs no kernel of its own.
 std::optional<RegisterId> Generator::rewritten_builtin(const Expression& e, std::optional<RegisterId> into) {
     const Builtin& builtin = *e.builtin;
     switch (builtin.op) {
@@ -178,7 +183,8 @@ std::optional<RegisterId> Generator::rewritten_builtin(const Expression& e, std:
     }
 }
 
-/// setcomp(c, k, x), setxcomp(p, x), setcomp(m, row, column, x): the output is the first argument.
+/// setcomp(c, k, x), setxcomp(p, x), setcomp(m, row, column, x): the output is the first argument. An element
+/// of an array is taken out, changed and written back, as operations know no places but registers.
 RegisterId Generator::set_part(const Expression& e) {
     const Expression& target = *e.children[0];
     RegisterId place;
@@ -195,7 +201,8 @@ RegisterId Generator::set_part(const Expression& e) {
     return place;
 }
 
-/// min(a, b, c, ...) as min(min(a, b), c) ...
+/// min(a, b, c, ...) as min(min(a, b), c) ... All arguments are computed before the first step, in the order
+/// of the source. The last step alone may write to `into`, which an argument may still be read from before.
 RegisterId Generator::chain_value(const Expression& e, std::optional<RegisterId> into) {
     Ids inputs;
     for (const ExpressionPtr& child : e.children) inputs.push_back(value(*child));
@@ -212,7 +219,8 @@ RegisterId Generator::number_of_elements(const Expression& array, std::optional<
     return moved(constant(static_cast<float>(length)), Base::Float, into);
 }
 
-/// The matrix of transform([from,] to, ...), where `to` is a name or a matrix.
+/// The matrix of transform([from,] to, ...), where `to` is a name or a matrix. Row vectors: the space on the
+/// left is left first. A name alone stands for the way from "current" to it.
 RegisterId Generator::named_matrix(const Expression* from, const Expression& to) {
     const RegisterId current = constant_text("current");
     if (to.type.base != Base::Matrix)
@@ -223,7 +231,8 @@ RegisterId Generator::named_matrix(const Expression* from, const Expression& to)
     return compute(Op::MatrixMultiply, Base::Matrix, {first, matrix});
 }
 
-/// transform(), and those of vectors, normals and matrices, from a space or to one.
+/// transform(), and those of vectors, normals and matrices, from a space or to one. Two operations, of which
+/// the matrix is uniform mostly and made once for the batch.
 RegisterId Generator::named_transform_value(const Expression& e, std::optional<RegisterId> into) {
     const size_t last = e.children.size() - 1;
     const RegisterId matrix = named_matrix(last == 2 ? e.children[0].get() : nullptr, *e.children[last - 1]);
@@ -327,7 +336,8 @@ RegisterId Generator::function_value(const Expression& e) {
 }
 
 /// The function's statements where it is called. A return from the middle leaves a Scope around them, so that
-/// lanes may return one by one.
+/// lanes may return one by one. The parameters have their registers already (function_value()). What the
+/// outer body was doing with its own result and scope is put aside meanwhile.
 RegisterId Generator::inline_body(const Function& function, Base base) {
     const Body outer = body_;
     body_ = {};

@@ -122,7 +122,8 @@ RegisterId Generator::number_value(const Expression& e, std::optional<RegisterId
     return moved(constant(e.number), e.type.base, into);
 }
 
-/// a op b, where the analysis has made operands of the types that op wants.
+/// a op b, where the analysis has made operands of the types that op wants. The result goes into `into` where
+/// there is one, which saves a move to a variable. Operands have been computed before, the left one first.
 RegisterId Generator::combined(Operator op, Base base, RegisterId a, RegisterId b,
                                std::optional<RegisterId> into) {
     if (op == Operator::Add && base == Base::String) return compute(Op::Concat, base, {a, b}, into);
@@ -148,7 +149,7 @@ RegisterId Generator::binary_value(const Expression& e, std::optional<RegisterId
 }
 
 /// c ? a : b. Where neither side does more than compute, both are computed and lanes choose, which costs less
-/// than parting them.
+/// than parting them. Texts are always parted: Select knows no strings.
 RegisterId Generator::conditional_value(const Expression& e, std::optional<RegisterId> into) {
     const RegisterId decision = condition(*e.children[0]);
     const bool is_text = e.type.base == Base::String;
@@ -218,7 +219,8 @@ RegisterId Generator::assignment_value(const Expression& e) {
     return to;
 }
 
-/// {a, b, ...}: one element after the other, from the first.
+/// {a, b, ...}: one element after the other, from the first. Elements are set as they are computed, from the
+/// first on: a list that reads its own array sees those set before.
 void Generator::assign_list(const Expression& list, RegisterId array) {
     for (size_t i = 0; i < list.children.size(); ++i)
         emit(Op::SetElement, {array}, {constant(static_cast<float>(i)), value(*list.children[i])});

@@ -16,7 +16,8 @@ bool contains_return(const Statement& s) {
     return false;
 }
 
-/// Whether an expression may change a variable, by assignment or as the argument of a call.
+/// Whether an expression may change a variable, by assignment or as the argument of a call. May say yes too
+/// often, never no wrongly.
 bool assigned_in(const Expression& e, const Variable& variable) {
     const auto names = [&](const Expression& target) {
         return target.kind == Expression::Kind::Variable && target.variable == &variable;
@@ -37,6 +38,7 @@ bool assigned_in(const Expression& e, const Variable& variable) {
 }  // namespace
 
 /// A return that is the last statement, also within a last block, is not early: control ends there anyway.
+/// Bodies without one need no scope in the machine, which keeps a mask for each.
 bool contains_early_return(const Statement& body) {
     if (body.kind != Statement::Kind::Block)
         return contains_return(body) && body.kind != Statement::Kind::Return;
@@ -49,12 +51,15 @@ bool contains_early_return(const Statement& body) {
     return false;
 }
 
+/// Looks into last blocks only: an if whose halves both return does not count.
 bool ends_with_return(const Statement& body) {
     if (body.kind == Statement::Kind::Return) return true;
     return body.kind == Statement::Kind::Block && !body.children.empty() &&
            ends_with_return(*body.children.back());
 }
 
+/// A walk over the whole body for each parameter of each call; bodies are small, and a needless copy would
+/// cost at every vertex.
 bool assigns(const Statement& s, const Variable& variable) {
     for (const ExpressionPtr& e : s.expressions)
         if (e && assigned_in(*e, variable)) return true;
@@ -65,7 +70,8 @@ bool assigns(const Statement& s, const Variable& variable) {
     return false;
 }
 
-/// Appends the code of one statement. Of an Empty that stands for a nested function nothing is left.
+/// Appends the code of one statement. Of an Empty that stands for a nested function nothing is left. The
+/// place goes into each instruction that follows, for messages of the run.
 void Generator::statement(const Statement& s) {
     if (s.at.line) at_ = s.at;
     switch (s.kind) {
@@ -125,6 +131,8 @@ void Generator::declare(const Statement& s) {
 }
 
 /// Variables of a block that statements without braces declare somewhere within this one of its statements.
+/// They are cleared in the block that they live in, since a branch that declares them may not be run in all
+/// lanes.
 void Generator::declare_outliving(const Statement& s) {
     for (const auto& variable : s.variables) {
         if (!variable->outlives) continue;
@@ -135,7 +143,8 @@ void Generator::declare_outliving(const Statement& s) {
     for (const StatementPtr& child : s.children) declare_outliving(*child);
 }
 
-/// Zeros, empty texts, or zeros in all elements.
+/// Zeros, empty texts, or zeros in all elements: variables without a value of their own are the same in each
+/// run.
 void Generator::clear(RegisterId id) {
     const Type type = program_->reg(id).type;
     if (type.is_array())
@@ -146,7 +155,8 @@ void Generator::clear(RegisterId id) {
         emit(Op::Move, {id}, {constant(0)});
 }
 
-/// One value serves all elements of an array.
+/// One value serves all elements of an array. A list that is too short leaves the rest 0, so the array is
+/// cleared first.
 void Generator::initialise(RegisterId id, const Expression& initial) {
     const Type type = program_->reg(id).type;
     if (initial.kind == Expression::Kind::List) {
@@ -168,6 +178,7 @@ RegisterId Generator::condition(const Expression& e) {
 }
 
 /// Else is given the condition again: lanes that parted at the If take the other half where it does not hold.
+/// The decision keeps its register until the else: nothing that runs in between may write to it.
 void Generator::if_statement(const Statement& s) {
     const RegisterId decision = condition(*s.expressions[0]);
     open(Op::If, {}, {decision});
@@ -290,7 +301,8 @@ void Generator::gather_statement(const Statement& s) {
     keep_inputs(opening);
 }
 
-/// The value goes to the caller's register; at the end of a body nothing has to be left.
+/// The value goes to the caller's register; at the end of a body nothing has to be left. Leave takes lanes
+/// out of the running ones up to the end of the scope; others go on.
 void Generator::return_statement(const Statement& s) {
     if (!s.expressions.empty() && s.expressions[0]) {
         if (body_.result)

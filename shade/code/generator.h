@@ -24,10 +24,12 @@ bool ends_with_return(const Statement& body);
 /// Whether a body may change a variable.
 bool assigns(const Statement& body, const Variable& variable);
 
-/// Makes the program of one shader. To be used once.
+/// Makes the program of one shader. To be used once. Functions are written out at their calls by generating
+/// their bodies again, with locals_ saying which registers their parameters are at the time.
 class Generator {
   public:
     Generator(const Shader& shader, Diagnostics& diagnostics) : shader_(shader), diagnostics_(diagnostics) {}
+    /// To be called once: the program is handed over.
     std::unique_ptr<Program> run();
 
   private:
@@ -37,6 +39,8 @@ class Generator {
 
     // Registers.
     RegisterId add_register(Register::Kind kind, Type type, std::string name = {});
+    /// A register that no variable has; memory is shared among those that are not in use together, later
+    /// (vm/plane_slots).
     RegisterId temporary(Base base) { return add_register(Register::Kind::Temporary, {base, 0}); }
     /// Registers of constants, predefined variables and variables are shared by all that name the same.
     RegisterId constant(float value);
@@ -45,10 +49,11 @@ class Generator {
     RegisterId register_of(const Variable& variable);
     Base base_of(RegisterId id) const { return program_->reg(id).type.base; }
 
-    // Instructions.
+    /// Instructions. All instructions are made here, and counted. The reference holds until the next one is.
     Instruction& emit(Op op, Ids outputs, const Ids& inputs, int32_t immediate = 0);
     /// Into `into`, or a new temporary.
     RegisterId compute(Op op, Base base, const Ids& inputs, std::optional<RegisterId> into = {});
+    /// Blocks are opened and closed in pairs, and each open() begins a region.
     void open(Op op, Ids outputs, const Ids& inputs);
     void turn_to_else(RegisterId decision);
     void close(Op op);
@@ -61,10 +66,11 @@ class Generator {
     RegisterId cast_value(const Expression& e, std::optional<RegisterId> into);
     RegisterId assignment_value(const Expression& e);
     RegisterId combined(Operator op, Base base, RegisterId a, RegisterId b, std::optional<RegisterId> into);
+    /// Without `into` nothing is moved, and the result may be a variable's register: not to be written to.
     RegisterId moved(RegisterId from, Base base, std::optional<RegisterId> into);
     void assign_list(const Expression& list, RegisterId array);
 
-    // Calls.
+    // Calls: generate_calls.cpp. The analysis has chosen the overload and converted the arguments.
     RegisterId call_value(const Expression& e, std::optional<RegisterId> into);
     RegisterId builtin_value(const Expression& e, std::optional<RegisterId> into);
     void add_unnamed_inputs(Op op, Ids& inputs);
@@ -79,9 +85,11 @@ class Generator {
     RegisterId inline_body(const Function& function, Base result);
     /// A place for an output argument, and what must be done to it afterwards if it is an array's element.
     RegisterId output_place(const Expression& argument, Base base);
+    /// Puts an output into the element of an array that was passed for it; nothing to do for variables, which
+    /// are passed by their registers.
     void write_back(const Expression& argument, RegisterId value);
 
-    // Statements.
+    // Statements: generate_statements.cpp. Each appends to code_ and leaves no value.
     void statement(const Statement& s);
     void declare(const Statement& s);
     void declare_outliving(const Statement& s);

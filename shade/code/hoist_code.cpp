@@ -9,7 +9,8 @@ namespace {
 
 /// The instructions of the loop [first, last] that may stand in front of it: directly in it, into a
 /// temporary, from what the loop does not set. What looks at neighbours stays, since the lanes around may not
-/// run.
+/// run. Outputs of what is found count as unset from then on, so that instructions which read only those move
+/// too.
 std::vector<size_t> invariant(const Program& program, const Code& code, const Blocks& blocks, size_t first,
                               size_t last) {
     std::vector<RegisterId> written_list;

@@ -6,6 +6,7 @@
 namespace trapeze::rsl {
 namespace {
 
+/// As the source spells them; the generator is independent of the printer of trees.
 std::string_view base_name(Base base) {
     switch (base) {
         case Base::Void:
@@ -30,7 +31,8 @@ std::string_view base_name(Base base) {
     return "?";
 }
 
-/// A constant's value, a variable's name, or %number for a temporary.
+/// A constant's value, a variable's name, or %number for a temporary. Variables of one name in different
+/// scopes look alike; the listing is for people.
 std::string register_text(const Program& program, RegisterId id) {
     const Register& r = program.reg(id);
     if (r.kind != Register::Kind::Constant)
@@ -75,7 +77,8 @@ void list_code(const Program& program, const Code& code, int indent, std::string
 
 }  // namespace
 
-/// The shader's kind and name, the code of each parameter's default, and the body.
+/// The shader's kind and name, the code of each parameter's default, and the body: for people, on the command
+/// line; nothing reads it back.
 std::string listing(const Program& program) {
     static constexpr std::string_view kKinds[] = {"surface", "displacement", "light", "volume", "imager"};
     std::string out = fmt::format("{} {}\n", kKinds[static_cast<size_t>(program.kind)], program.name);

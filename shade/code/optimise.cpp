@@ -3,7 +3,7 @@
 namespace trapeze::rsl {
 
 /// Folding comes before hoisting, which then has less to look at, and after it, for what is now outside is
-/// common.
+/// common. Defaults of parameters have no loops worth hoisting from.
 void optimise(Program& program, const OptimiseOptions& options) {
     if (options.fold) {
         for (ProgramParameter& parameter : program.parameters) fold_code(program, parameter.initial);

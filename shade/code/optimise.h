@@ -5,7 +5,8 @@
 
 namespace trapeze::rsl {
 
-/// What is to be done; all of it, but for tests that look at one pass.
+/// What is to be done; all of it, but for tests that look at one pass. None of the passes depends on another
+/// for being right.
 struct OptimiseOptions {
     bool fold = true;   ///< constants, copies and common subexpressions
     bool hoist = true;  ///< what does not change in a loop
@@ -15,6 +16,7 @@ struct OptimiseOptions {
     static OptimiseOptions none() { return {false, false, false}; }
 };
 
+/// In place, before storage is inferred: what passes add or move has none yet.
 void optimise(Program& program, const OptimiseOptions& options = {});
 
 // Its passes.

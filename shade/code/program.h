@@ -56,6 +56,7 @@ struct Instruction {
 
     /// Operands are outputs and then inputs, in the order of the operation's row in op_table.def.
     RegisterId output(size_t i = 0) const { return operands[i]; }
+    /// Operands are the outputs first, then the inputs.
     size_t input_count() const { return operands.size() - outputs; }
     RegisterId input(size_t i) const { return operands[outputs + i]; }
 };
@@ -74,7 +75,8 @@ struct ProgramParameter {
     SourceLocation at;
 };
 
-/// One shader of a source.
+/// One shader of a source. Registers are never taken out, so that ids stay good through all passes; varying
+/// ones that nothing names get no memory (plane_slots.h).
 struct Program {
     ShaderKind kind = ShaderKind::Surface;
     std::string name;

@@ -8,7 +8,8 @@ namespace trapeze::rsl {
 namespace {
 
 /// Counts how often each register is read, by the code and by the defaults of parameters, and takes out what
-/// nobody reads until that leaves nothing more unread.
+/// nobody reads until that leaves nothing more unread. Counts are kept up to date by erase(), so that no pass
+/// has to walk over the code for them.
 class Pruner {
   public:
     explicit Pruner(Program& program) : program_(program), reads_(program.registers.size(), 0) {}
@@ -31,6 +32,7 @@ class Pruner {
         for (const Instruction& instruction : code) count(instruction, 1);
     }
 
+    /// A register that is read twice by one instruction counts twice.
     void count(const Instruction& instruction, int sign) {
         for (size_t k = 0; k < instruction.input_count(); ++k) reads_[instruction.input(k)] += sign;
     }

@@ -6,6 +6,10 @@
 namespace trapeze {
 namespace {
 
+using testing::expect_near_triple;
+using testing::ShaderFolder;
+using testing::ShadingScene;
+
 class BumpTest : public MapFilesTest {
   protected:
     /// Ci is what the call gives on the test grid: P = (s, 1 - t, 4), dPds = x, dPdt = -y, N = -z.
@@ -23,7 +27,7 @@ class BumpTest : public MapFilesTest {
     }
 
     ShaderFolder shaders_;
-    TestScene scene_;
+    ShadingScene scene_;
 };
 
 TEST_F(BumpTest, TiltsNormalsAgainstTheSlope) {
@@ -38,7 +42,7 @@ TEST_F(BumpTest, TiltsNormalsAgainstTheSlope) {
         const ShadingGrid grid = bump(call);
         for (int j = 2; j <= 6; ++j)
             for (int i = 2; i <= 6; ++i)  // away from the picture's border
-                expect_near(grid.Ci.at(grid.shape.row_index(i, j)), expected, 0.02f, call.c_str());
+                expect_near_triple(grid.Ci.at(grid.shape.row_index(i, j)), expected, 0.02f, call.c_str());
     }
     EXPECT_TRUE(scene_.reported.empty());
 }
@@ -49,7 +53,7 @@ TEST_F(BumpTest, FlatMapsAndMissingOnesChangeNothing) {
     const std::string flat = write("flat.exr", spec, [](int, int, int) { return 0.7f; });
     for (const std::string& file : {flat, std::string("nowhere.exr")}) {
         const ShadingGrid grid = bump("bump(\"" + file + "\", N, dPdu, dPdv, s, t)");
-        for (size_t i = 0; i < grid.vertex_count(); ++i) expect_near(grid.Ci.at(i), V3f(0), 1e-4f);
+        for (size_t i = 0; i < grid.vertex_count(); ++i) expect_near_triple(grid.Ci.at(i), V3f(0), 1e-4f);
     }
     EXPECT_EQ(scene_.reported.size(), 1u);
 }

@@ -7,7 +7,7 @@
 namespace trapeze {
 namespace {
 
-using vm::testing::ShaderRun;
+using testing::ShaderRun;
 
 /// What a shader's text calls its coordinates.
 struct Storage {

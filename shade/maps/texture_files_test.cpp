@@ -7,6 +7,8 @@
 namespace trapeze {
 namespace {
 
+using testing::ShaderFolder;
+
 class TextureFiles : public ::testing::Test {
   protected:
     void touch(const std::string& name) {

@@ -10,7 +10,10 @@ namespace {
 
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
+using testing::expect_near_triple;
 using ::testing::HasSubstr;
+using testing::ShaderFolder;
+using testing::ShadingScene;
 using ::testing::SizeIs;
 
 /// Colours squared, with red and green exchanged.
@@ -62,7 +65,7 @@ class TextureSpacesTest : public MapFilesTest {
     }
     V3f seen(const std::string& call, bool managed = true) {
         shaders_.write("look", "surface look() { Ci = " + call + "; Oi = 1; }");
-        TestScene scene;
+        ShadingScene scene;
         if (managed) scene.context.colors = std::make_shared<const FakeColors>();
         scene.scene.options.search_paths["shader"] = {shaders_.path()};
         scene.scene.options.search_paths["texture"] = {folder_.string()};
@@ -75,7 +78,7 @@ class TextureSpacesTest : public MapFilesTest {
         return "color texture(\"" + file + "\", 0.3, 0.6" +
                (space.empty() ? "" : ", \"colorspace\", \"" + space + "\"") + ")";
     }
-    static void expect_near(const V3f& is, const V3f& wanted, float most = 0.004f) {
+    static void expect_near_triple(const V3f& is, const V3f& wanted, float most = 0.004f) {
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(is[c], wanted[c], most) << c;
     }
 
@@ -89,24 +92,24 @@ TEST_F(TextureSpacesTest, LookupsNameThem) {
     even("b.exr", 3, TypeDesc::FLOAT);
     for (const char* file : {"a.png", "a.tif", "a.exr", "b.exr"}) {
         SCOPED_TRACE(file);
-        expect_near(seen(look_up(file)), kAsStored);
-        expect_near(seen(look_up(file, "paint")), kConverted);
-        expect_near(seen(look_up(file, "work")), kAsStored);
-        expect_near(seen(look_up(file, "linear")), kAsStored);
-        expect_near(seen(look_up(file) + " * 0.5 + 0.5 * " + look_up(file, "paint")),
-                    (kAsStored + kConverted) / 2);
+        expect_near_triple(seen(look_up(file)), kAsStored);
+        expect_near_triple(seen(look_up(file, "paint")), kConverted);
+        expect_near_triple(seen(look_up(file, "work")), kAsStored);
+        expect_near_triple(seen(look_up(file, "linear")), kAsStored);
+        expect_near_triple(seen(look_up(file) + " * 0.5 + 0.5 * " + look_up(file, "paint")),
+                           (kAsStored + kConverted) / 2);
         EXPECT_TRUE(reported_.empty());
     }
     EXPECT_NEAR(seen("float texture(\"a.png\"[1], 0.3, 0.6, \"colorspace\", \"paint\")").x, 0.64f, 0.004f);
-    expect_near(seen("color environment(\"a.png\", N, \"colorspace\", \"paint\")"), kConverted);
+    expect_near_triple(seen("color environment(\"a.png\", N, \"colorspace\", \"paint\")"), kConverted);
 }
 
 TEST_F(TextureSpacesTest, RulesAreForColoursThatNobodySpeaksOf) {
     even("a.paint.png", 3, TypeDesc::UINT8), even("grey.paint.png", 1, TypeDesc::UINT8);
-    expect_near(seen(look_up("a.paint.png")), kConverted);
-    expect_near(seen(look_up("a.paint.png"), false), kAsStored);
-    expect_near(seen(look_up("a.paint.png", "linear")), kAsStored);
-    expect_near(seen(look_up("a.paint.png", "work")), kAsStored);
+    expect_near_triple(seen(look_up("a.paint.png")), kConverted);
+    expect_near_triple(seen(look_up("a.paint.png"), false), kAsStored);
+    expect_near_triple(seen(look_up("a.paint.png", "linear")), kAsStored);
+    expect_near_triple(seen(look_up("a.paint.png", "work")), kAsStored);
     EXPECT_NEAR(seen("float texture(\"a.paint.png\", 0.3, 0.6)").x, 0.8f, 0.004f) << "a mask";
     EXPECT_NEAR(seen(look_up("grey.paint.png")).x, 0.8f, 0.004f);
     EXPECT_NEAR(seen(look_up("grey.paint.png", "paint")).x, 0.64f, 0.004f) << "it is asked for";
@@ -118,12 +121,12 @@ TEST_F(TextureSpacesTest, AlphaIsLeftAloneAndColoursAreConvertedWithoutIt) {
     // Stored multiplied: divided for it.
     even("together.exr", 4, TypeDesc::FLOAT);
     for (const char* file : {"apart.png", "apart.tif"}) {
-        expect_near(seen(look_up(file, "paint")), kConverted / 2);
+        expect_near_triple(seen(look_up(file, "paint")), kConverted / 2);
         EXPECT_NEAR(
             seen("float texture(\"" + std::string(file) + "\"[3], 0.3, 0.6, \"colorspace\", \"paint\")").x,
             0.5f, 0.004f);
     }
-    expect_near(seen(look_up("together.exr", "paint")), V3f(0.32f, 1.28f, 0.08f));
+    expect_near_triple(seen(look_up("together.exr", "paint")), V3f(0.32f, 1.28f, 0.08f));
 }
 
 TEST_F(TextureSpacesTest, LevelsAreFilteredAfterColoursAreConverted) {
@@ -144,7 +147,7 @@ TEST_F(TextureSpacesTest, ThatCannotBeUsedAreReported) {
     EXPECT_EQ(reported_[0].severity, Severity::Error);
     EXPECT_THAT(reported_[0].text,
                 HasSubstr("texture \"a.png\": colour space \"broken\": a table is missing"));
-    expect_near(seen(look_up("a.png", "acescg")), kAsStored);
+    expect_near_triple(seen(look_up("a.png", "acescg")), kAsStored);
     ASSERT_THAT(reported_, SizeIs(1));
     EXPECT_EQ(reported_[0].severity, Severity::Warning);
     EXPECT_THAT(

@@ -12,6 +12,8 @@ namespace {
 
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
+using testing::ShaderFolder;
+using testing::ShadingScene;
 
 constexpr float kStored = 188 / 255.0f;
 const float kDecoded = std::pow((kStored + 0.055f) / 1.055f, 2.4f);
@@ -24,7 +26,7 @@ class TextureTransferTest : public MapFilesTest {
     /// Of all that texture() gives of a picture by that name.
     float seen(const std::string& call, const std::string& transfer) {
         shaders_.write("look", "surface look() { Ci = " + call + "; Oi = 1; }");
-        TestScene scene;
+        ShadingScene scene;
         scene.scene.options.search_paths["shader"] = {shaders_.path()};
         scene.scene.options.search_paths["texture"] = {folder_.string()};
         if (!transfer.empty()) set_transfer(scene.scene.options, transfer);

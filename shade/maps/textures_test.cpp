@@ -13,6 +13,12 @@
 namespace trapeze {
 namespace {
 
+using testing::expect_near_triple;
+using testing::finite;
+using testing::number;
+using testing::ShadingScene;
+using testing::text;
+
 namespace fs = std::filesystem;
 
 /// Top row red, green; bottom row blue, grey 188 (0.5029 in linear light).
@@ -74,10 +80,10 @@ const float kGrey = std::pow((188 / 255.0f + 0.055f) / 1.055f, 2.4f);
 TEST_F(TexturesTest, TRunsDownFromTheTopRow) {
     Textures textures(options_, &diagnostics_);
     const Textures::Picture* picture = textures.find(write("quarters.png", 16), {}, Transfer::Auto);
-    expect_near(look(textures, picture, 0.25f, 0.25f), V3f(1, 0, 0), 1e-4f, "top left");
-    expect_near(look(textures, picture, 0.75f, 0.25f), V3f(0, 1, 0), 1e-4f, "top right");
-    expect_near(look(textures, picture, 0.25f, 0.75f), V3f(0, 0, 1), 1e-4f, "bottom left");
-    expect_near(look(textures, picture, 0.75f, 0.75f), V3f(kGrey), 1e-3f, "bottom right");
+    expect_near_triple(look(textures, picture, 0.25f, 0.25f), V3f(1, 0, 0), 1e-4f, "top left");
+    expect_near_triple(look(textures, picture, 0.75f, 0.25f), V3f(0, 1, 0), 1e-4f, "top right");
+    expect_near_triple(look(textures, picture, 0.25f, 0.75f), V3f(0, 0, 1), 1e-4f, "bottom left");
+    expect_near_triple(look(textures, picture, 0.75f, 0.75f), V3f(kGrey), 1e-3f, "bottom right");
     EXPECT_TRUE(reported_.empty());
 }
 
@@ -86,14 +92,14 @@ TEST_F(TexturesTest, FilteringIsInLinearLight) {
     Textures textures(options_, &diagnostics_);
     const Textures::Picture* picture = textures.find(write("two.png", 1), {}, Transfer::Auto);
     const float blue_red = (1 + kGrey) / 4;
-    expect_near(look(textures, picture, 0.5f, 0.5f, 1), V3f(blue_red), 2e-3f);
+    expect_near_triple(look(textures, picture, 0.5f, 0.5f, 1), V3f(blue_red), 2e-3f);
 }
 
 TEST_F(TexturesTest, FloatsAreTakenAsTheyAre) {
     Textures textures(options_, &diagnostics_);
     const Textures::Picture* picture = textures.find(write("quarters.exr", 16, OIIO::TypeDesc::HALF), {});
-    expect_near(look(textures, picture, 0.75f, 0.75f), V3f(188 / 255.0f), 1e-3f);
-    expect_near(look(textures, picture, 0.25f, 0.75f), V3f(0, 0, 1), 1e-3f);
+    expect_near_triple(look(textures, picture, 0.75f, 0.75f), V3f(188 / 255.0f), 1e-3f);
+    expect_near_triple(look(textures, picture, 0.25f, 0.75f), V3f(0, 0, 1), 1e-3f);
 }
 
 TEST_F(TexturesTest, OutsidePicturesIsBlackUnlessTheySayOtherwise) {
@@ -101,8 +107,8 @@ TEST_F(TexturesTest, OutsidePicturesIsBlackUnlessTheySayOtherwise) {
     const Textures::Picture* plain = textures.find(write("plain.exr", 16, OIIO::TypeDesc::HALF), {});
     const Textures::Picture* periodic =
         textures.find(write("periodic.exr", 16, OIIO::TypeDesc::HALF, "periodic,periodic"), {});
-    expect_near(look(textures, periodic, 1.25f, -0.75f), V3f(1, 0, 0), 1e-3f);
-    expect_near(look(textures, plain, 1.25f, 0.25f), V3f(0), 1e-3f);
+    expect_near_triple(look(textures, periodic, 1.25f, -0.75f), V3f(1, 0, 0), 1e-3f);
+    expect_near_triple(look(textures, plain, 1.25f, 0.25f), V3f(0), 1e-3f);
     EXPECT_TRUE(reported_.empty());
 }
 
@@ -133,7 +139,7 @@ TEST_F(TexturesTest, TheirSourcesStandInForThem) {
 TEST_F(TexturesTest, BrokenOnesAreReportedOnceAndWhite) {
     const std::string path = (folder_ / "broken.png").string();
     std::fclose(std::fopen(path.c_str(), "w"));
-    TestScene scene;
+    ShadingScene scene;
     scene.light("ambientlight");
     scene.surface("paintedplastic", {text("texturename", path)});
     const ShadingGrid grid = scene.shaded();
@@ -141,21 +147,21 @@ TEST_F(TexturesTest, BrokenOnesAreReportedOnceAndWhite) {
     EXPECT_EQ(scene.reported[0].severity, Severity::Error);
     EXPECT_NE(scene.reported[0].text.find("broken.png"), std::string::npos) << scene.reported[0].text;
     EXPECT_GT(grid.Cs.at(0).x, 0);
-    expect_near(grid.Ci.at(0), grid.Cs.at(0) * grid.Os.at(0), 1e-6f);
+    expect_near_triple(grid.Ci.at(0), grid.Cs.at(0) * grid.Os.at(0), 1e-6f);
 }
 
 TEST_F(TexturesTest, PaintedPlasticIsPainted) {
-    TestScene scene;
+    ShadingScene scene;
     scene.light("ambientlight");
     scene.surface("paintedplastic", {text("texturename", write("quarters.png", 32))});
     set_transfer(scene.scene.options, "auto");
     const ShadingGrid before = scene.grid(16, 16), grid = scene.shaded(before);
     const auto seen = [&](int i, int j) { return grid.Ci.at(grid.shape.row_index(i, j)); };
     const V3f base = grid.Cs.at(0) * grid.Os.at(0);
-    expect_near(seen(4, 4), base * V3f(1, 0, 0), 1e-3f);
-    expect_near(seen(12, 4), base * V3f(0, 1, 0), 1e-3f);
-    expect_near(seen(4, 12), base * V3f(0, 0, 1), 1e-3f);
-    expect_near(seen(12, 12), base * kGrey, 1e-3f);
+    expect_near_triple(seen(4, 4), base * V3f(1, 0, 0), 1e-3f);
+    expect_near_triple(seen(12, 4), base * V3f(0, 1, 0), 1e-3f);
+    expect_near_triple(seen(4, 12), base * V3f(0, 0, 1), 1e-3f);
+    expect_near_triple(seen(12, 12), base * kGrey, 1e-3f);
     EXPECT_TRUE(scene.reported.empty());
 }
 
@@ -166,16 +172,16 @@ TEST_F(TexturesTest, RisSurfacesRepeatPicturesAndHaveGreyOfOneChannel) {
     const auto out = OIIO::ImageOutput::create(path);
     ASSERT_TRUE(out && out->open(path, spec) && out->write_image(OIIO::TypeDesc::FLOAT, pixels.data()) &&
                 out->close());
-    TestScene scene;
+    ShadingScene scene;
     scene.light("ambientlight");
     scene.surface("rissurface", {text("texturename", path), number("scales", 5)});
     const ShadingGrid grid = scene.shaded(scene.grid(8, 8));
     for (size_t i = 0; i < grid.vertex_count(); ++i)
-        expect_near(grid.Ci.at(i), grid.Cs.at(i) * grid.Os.at(i) * 0.5f, 1e-3f);
+        expect_near_triple(grid.Ci.at(i), grid.Cs.at(i) * grid.Os.at(i) * 0.5f, 1e-3f);
 }
 
 TEST_F(TexturesTest, FilterWidthsComeFromTheGrid) {
-    TestScene scene;
+    ShadingScene scene;
     scene.light("ambientlight");
     const std::string picture = write("quarters.png", 32, OIIO::TypeDesc::UINT8, "periodic,periodic");
     scene.surface("paintedplastic", {text("texturename", picture)});
@@ -186,11 +192,11 @@ TEST_F(TexturesTest, FilterWidthsComeFromTheGrid) {
     for (float& s : grid.s) s = s * 4 + 0.25f;  // four pictures in a micropolygon
     for (float& t : grid.t) t = t * 4 + 0.25f;
     const ShadingGrid shaded = scene.shaded(grid);
-    for (size_t i = 0; i < 4; ++i) expect_near(shaded.Ci.at(i), base * average, 0.01f);
+    for (size_t i = 0; i < 4; ++i) expect_near_triple(shaded.Ci.at(i), base * average, 0.01f);
 }
 
 TEST_F(TexturesTest, ANameOnThePrimitiveReplacesTheShaders) {
-    TestScene scene;
+    ShadingScene scene;
     scene.light("ambientlight");
     scene.surface("paintedplastic");
     ShadingGrid grid = scene.grid(16, 16);
@@ -200,11 +206,11 @@ TEST_F(TexturesTest, ANameOnThePrimitiveReplacesTheShaders) {
     grid.variables.push_back(name);
     const ShadingGrid shaded = scene.shaded(grid);
     const size_t at = grid.shape.row_index(4, 4);
-    expect_near(shaded.Ci.at(at), grid.Cs.at(at) * grid.Os.at(at) * V3f(1, 0, 0), 1e-3f);
+    expect_near_triple(shaded.Ci.at(at), grid.Cs.at(at) * grid.Os.at(at) * V3f(1, 0, 0), 1e-3f);
 }
 
 TEST_F(TexturesTest, CoordinatesThatAreNotNumbersAreHarmless) {
-    TestScene scene;
+    ShadingScene scene;
     scene.light("ambientlight");
     scene.surface("paintedplastic", {text("texturename", write("quarters.png", 8))});
     ShadingGrid grid = scene.grid();

@@ -7,8 +7,12 @@
 namespace trapeze {
 namespace {
 
+using testing::shader;
+using testing::ShaderFolder;
+using testing::ShadingScene;
+
 /// A scene whose surface is this source, with lights and an atmosphere.
-struct PartedScene : TestScene {
+struct PartedScene : ShadingScene {
     ShaderFolder folder;
 
     explicit PartedScene(const std::string& source) {

@@ -6,9 +6,14 @@
 namespace trapeze {
 namespace {
 
+using testing::expect_near_triple;
+using testing::number;
+using testing::ShaderFolder;
+using testing::ShadingScene;
+
 /// A surface of two layers, of which the first computes a pattern.
 struct LayeredScene {
-    TestScene test;
+    ShadingScene test;
     ShaderFolder folder;
     std::shared_ptr<ShaderInstance> first = std::make_shared<ShaderInstance>();
     std::shared_ptr<ShaderInstance> last = std::make_shared<ShaderInstance>();
@@ -36,8 +41,8 @@ TEST(Layers, OutputsBecomeParametersOfLaterLayers) {
     for (size_t i = 0; i < grid.vertex_count(); ++i) {
         const float s = grid.s[i], t = grid.t[i], amount = 2 * s;
         // The later layer starts from the earlier one's Ci.
-        expect_near(grid.Ci.at(i), V3f(0.5f + amount * s, amount * t, amount * 0.25f + 5), 1e-6f);
-        expect_near(grid.Oi.at(i), grid.Os.at(i), 0);
+        expect_near_triple(grid.Ci.at(i), V3f(0.5f + amount * s, amount * t, amount * 0.25f + 5), 1e-6f);
+        expect_near_triple(grid.Oi.at(i), grid.Os.at(i), 0);
     }
     EXPECT_TRUE(scene.test.reported.empty());
 }
@@ -45,7 +50,7 @@ TEST(Layers, OutputsBecomeParametersOfLaterLayers) {
 TEST(Layers, WithoutConnectionsParametersKeepTheirValues) {
     LayeredScene scene;
     const ShadingGrid grid = scene.test.shaded();
-    for (size_t i = 0; i < grid.vertex_count(); ++i) expect_near(grid.Ci.at(i), V3f(21.5f, 21, 26), 0);
+    for (size_t i = 0; i < grid.vertex_count(); ++i) expect_near_triple(grid.Ci.at(i), V3f(21.5f, 21, 26), 0);
 }
 
 TEST(Layers, TheSameShaderTwiceHasAFrameForEach) {
@@ -73,7 +78,7 @@ TEST(Layers, ConnectionsThatCannotBeAreReportedAndLeftOut) {
     for (size_t i = 0; i < 6; ++i)
         EXPECT_NE(scene.test.reported[i].text.find(expected[i]), std::string::npos)
             << scene.test.reported[i].text;
-    expect_near(grid.Ci.at(0), V3f(21.5f, 21, 26), 0);
+    expect_near_triple(grid.Ci.at(0), V3f(21.5f, 21, 26), 0);
 }
 
 TEST(Layers, PredefinedVariablesOfLaterLayersTakeOutputs) {
@@ -89,8 +94,8 @@ TEST(Layers, PredefinedVariablesOfLaterLayersTakeOutputs) {
     EXPECT_TRUE(scene.test.reported.empty()) << scene.test.reported[0].text;
     for (size_t i = 0; i < grid.vertex_count(); ++i) {
         const V3f tint(grid.s[i], grid.t[i], 0.25f);
-        expect_near(grid.Ci.at(i), tint * tint.x + V3f(0, tint.x, 0), 1e-6f);
-        expect_near(grid.Oi.at(i), tint, 0);
+        expect_near_triple(grid.Ci.at(i), tint * tint.x + V3f(0, tint.x, 0), 1e-6f);
+        expect_near_triple(grid.Oi.at(i), tint, 0);
     }
 }
 
@@ -101,7 +106,7 @@ TEST(Layers, AMissingLayerIsReportedAndLeftOut) {
     ASSERT_EQ(scene.test.reported.size(), 1u);
     EXPECT_NE(scene.test.reported[0].text.find("ShaderLayer"), std::string::npos);
     // Nothing has set Ci before the last layer: black.
-    expect_near(grid.Ci.at(0), V3f(21, 21, 26), 1e-5f);
+    expect_near_triple(grid.Ci.at(0), V3f(21, 21, 26), 1e-5f);
 }
 
 }  // namespace

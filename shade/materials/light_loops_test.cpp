@@ -10,6 +10,11 @@
 namespace trapeze {
 namespace {
 
+using testing::number;
+using testing::ShaderFolder;
+using testing::ShadingScene;
+using testing::text;
+
 /// A scene whose surface is the body given, under lights of one shader with parameters.
 class LitProbe {
   public:
@@ -27,7 +32,7 @@ class LitProbe {
                      {number("level", level), number("tilt", tilt), text("__category", std::move(category))});
     }
 
-    TestScene& scene() { return scene_; }
+    ShadingScene& scene() { return scene_; }
     const ShaderFolder& folder() const { return folder_; }
 
     /// Red of Ci at each vertex.
@@ -45,7 +50,7 @@ class LitProbe {
 
   private:
     ShaderFolder folder_;
-    TestScene scene_;
+    ShadingScene scene_;
 };
 
 TEST(Illuminance, ChoosesLightsByCategory) {
@@ -176,10 +181,10 @@ TEST(Messages, WhereThereIsNoShaderTheValueStays) {
 }
 
 TEST(Messages, IncidentIsTheAtmosphere) {
-    vm::testing::ShaderRun volume(
+    testing::ShaderRun volume(
         "volume fog(float density = 0.25; output varying float depth = 0;) { depth = s; }");
     volume.run();
-    TestScene scene;
+    ShadingScene scene;
     GridMessages messages(scene.context);
     std::vector<float> plane(kLanes, -1);
     vm::Operand out;
@@ -196,7 +201,7 @@ TEST(Messages, IncidentIsTheAtmosphere) {
 /// Runs a light over the grid as its own surface.
 void expect_light(const std::string& body, const std::function<float(const V3f& Ps)>& red,
                   const std::function<bool(const V3f& Ps)>& is_lit) {
-    vm::testing::ShaderRun run("light test(output varying float r = 0;) { " + body + " r = comp(Cl, 0); }");
+    testing::ShaderRun run("light test(output varying float r = 0;) { " + body + " r = comp(Cl, 0); }");
     std::vector<float> L(3 * padded_size(run.vertices()));
     std::vector<uint32_t> lit(padded_size(run.vertices()), 0);
     vm::LightOutput output{L.data(), lit.data()};
@@ -239,7 +244,7 @@ TEST(Solar, LightsAlongAnAxisOrFromAllSides) {
 
 TEST(Gather, TakesTheOtherHalfForEachRayThatMisses) {
     for (const bool optimised : {false, true}) {
-        vm::testing::ShaderRun run(
+        testing::ShaderRun run(
             "surface test(output varying float r = 0, left = 0, none = 0;) { color c = 0; float n = 6;"
             "gather(\"illuminance\", P, N, 0.5, n, \"surface:Ci\", c) { r += 100; } else { r += 1; }"
             "gather(\"illuminance\", P, N, 0.5, n, \"surface:Ci\", c) { left += 100; }"

@@ -8,6 +8,12 @@
 namespace trapeze {
 namespace {
 
+using testing::color;
+using testing::expect_near_triple;
+using testing::number;
+using testing::point;
+using testing::shader;
+
 /// What a light sends to one point.
 struct Received {
     V3f L, direction, Cl;
@@ -79,16 +85,16 @@ TEST(Lights, DistantShinesAlongItsAxisInShaderSpace) {
     turned.camera_from_shader.setAxisAngle(V3f(0, 0, 1), kPi / 2);  // y to -x
     turned.camera_from_shader[3][2] = 50;
     const Received r = received(turned, V3f(0));
-    expect_near(r.direction, V3f(-1, 0, 0), 1e-6f);
-    expect_near(r.L, V3f(-2, 0, 0), 1e-5f);
+    expect_near_triple(r.direction, V3f(-1, 0, 0), 1e-6f);
+    expect_near_triple(r.L, V3f(-2, 0, 0), 1e-5f);
     EXPECT_EQ(r.Cl, V3f(3));
 }
 
 TEST(Lights, PointFallsOffWithTheSquareOfTheDistance) {
     const ShaderInstance lamp = shader("pointlight", {number("intensity", 12), point("from", V3f(0, 0, 3))});
     const Received near = received(lamp, V3f(0, 0, 1)), far = received(lamp, V3f(0, 0, -1));
-    expect_near(near.Cl, V3f(3), 1e-6f);
-    expect_near(far.Cl, V3f(0.75f), 1e-6f);
+    expect_near_triple(near.Cl, V3f(3), 1e-6f);
+    expect_near_triple(far.Cl, V3f(0.75f), 1e-6f);
     EXPECT_EQ(near.L, V3f(0, 0, 2));
     EXPECT_EQ(near.direction, V3f(0, 0, 1));
 }

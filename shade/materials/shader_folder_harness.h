@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-namespace trapeze {
+namespace trapeze::testing {
 
 class ShaderFolder {
   public:
@@ -31,4 +31,4 @@ class ShaderFolder {
     std::string path_;
 };
 
-}  // namespace trapeze
+}  // namespace trapeze::testing

@@ -7,6 +7,13 @@
 namespace trapeze {
 namespace {
 
+using testing::color;
+using testing::number;
+using testing::point;
+using testing::shader;
+using testing::ShadingScene;
+using testing::text;
+
 float number_of(const ShaderInstance& instance, const char* name) {
     const Parameter* found = instance.parameters.find(name);
     return found && found->floats.size() == 1 ? found->floats[0] : -1;
@@ -87,7 +94,7 @@ TEST(StandInLight, WhatItDoesNotKnowIsLeftOut) {
 
 /// The scene is lit as by a pointlight that does not fade, and said once.
 TEST(StandInLight, ShinesOnSurfaces) {
-    TestScene scene;
+    ShadingScene scene;
     scene.surface("matte", {number("Ka", 0)});
     scene.light("lamp", {number("intensity", 2)});
     const ShadingGrid grid = scene.shaded();

@@ -7,6 +7,13 @@
 namespace trapeze {
 namespace {
 
+using testing::color;
+using testing::expect_near_triple;
+using testing::finite;
+using testing::number;
+using testing::point;
+using testing::ShadingScene;
+
 const V3f kCs(0.8f, 0.4f, 0.2f), kOs(1, 0.5f, 0.25f);  // of the test grid
 
 /// RISpec's formulas in doubles for one vertex of the test grid, under an ambient light of 0.1 and a point
@@ -28,7 +35,7 @@ struct Reference {
     }
 };
 
-void light(TestScene& scene) {
+void light(ShadingScene& scene) {
     scene.light("ambientlight", {number("intensity", 0.1f)});
     scene.light("pointlight", {number("intensity", 20), point("from", kLamp)});
 }
@@ -37,7 +44,7 @@ void light(TestScene& scene) {
 void expect_colors(const ShadingGrid& grid, const std::function<V3f(const Reference&)>& formula) {
     for (size_t i = 0; i < grid.vertex_count(); ++i) {
         const V3f expected = kOs * formula(Reference(grid.P[0].at(i)));
-        expect_near(grid.Ci.at(i), expected, 3e-6f * (1 + expected.length()));
+        expect_near_triple(grid.Ci.at(i), expected, 3e-6f * (1 + expected.length()));
         EXPECT_EQ(grid.Oi.at(i), kOs);
     }
 }
@@ -47,14 +54,14 @@ V3f grey(double x) {
 }
 
 TEST(Surfaces, Constant) {
-    TestScene scene;
+    ShadingScene scene;
     scene.surface("constant");
     light(scene);
     expect_colors(scene.shaded(), [](const Reference&) { return kCs; });
 }
 
 TEST(Surfaces, Matte) {
-    TestScene scene;
+    ShadingScene scene;
     light(scene);
     scene.surface("matte");
     expect_colors(scene.shaded(), [](const Reference& r) { return kCs * grey(r.ambient + r.diffuse()); });
@@ -64,7 +71,7 @@ TEST(Surfaces, Matte) {
 }
 
 TEST(Surfaces, Metal) {
-    TestScene scene;
+    ShadingScene scene;
     light(scene);
     for (const char* name : {"metal", "shinymetal"}) {
         scene.surface(name);
@@ -77,7 +84,7 @@ TEST(Surfaces, Metal) {
 }
 
 TEST(Surfaces, Plastic) {
-    TestScene scene;
+    ShadingScene scene;
     light(scene);
     scene.surface("plastic");
     expect_colors(scene.shaded(), [](const Reference& r) {
@@ -92,7 +99,7 @@ TEST(Surfaces, Plastic) {
 }
 
 TEST(Surfaces, PaintedPlasticWithoutATextureIsPlastic) {
-    TestScene scene;
+    ShadingScene scene;
     light(scene);
     scene.surface("plastic");
     const ShadingGrid plastic = scene.shaded();
@@ -102,7 +109,7 @@ TEST(Surfaces, PaintedPlasticWithoutATextureIsPlastic) {
 }
 
 TEST(Surfaces, DefaultsurfaceIsLitFromTheEyeAlone) {
-    TestScene scene;
+    ShadingScene scene;
     light(scene);
     const ShadingGrid unnamed = scene.shaded();
     expect_colors(unnamed, [](const Reference& r) {
@@ -118,7 +125,7 @@ TEST(Surfaces, DefaultsurfaceIsLitFromTheEyeAlone) {
 
 /// Passes that make depth maps use it: it hides what is behind it.
 TEST(Surfaces, NullHasItsOwnColourAndOpacity) {
-    TestScene scene;
+    ShadingScene scene;
     light(scene);
     scene.surface("null");
     const ShadingGrid grid = scene.shaded();
@@ -129,7 +136,7 @@ TEST(Surfaces, NullHasItsOwnColourAndOpacity) {
 }
 
 TEST(Surfaces, NormalsAwayFromTheEyeAreTurned) {
-    TestScene scene;
+    ShadingScene scene;
     light(scene);
     scene.surface("plastic");
     const ShadingGrid front = scene.shaded();
@@ -140,7 +147,7 @@ TEST(Surfaces, NormalsAwayFromTheEyeAreTurned) {
 }
 
 TEST(Surfaces, LightsBehindAreNotSeen) {
-    TestScene scene;
+    ShadingScene scene;
     scene.surface("plastic");
     scene.light("pointlight", {number("intensity", 1000), point("from", V3f(0, 0, 9))});
     const ShadingGrid grid = scene.shaded();
@@ -148,19 +155,19 @@ TEST(Surfaces, LightsBehindAreNotSeen) {
 }
 
 TEST(Surfaces, LightsAdd) {
-    TestScene scene;
+    ShadingScene scene;
     scene.surface("matte");
     scene.light("distantlight");
     const V3f one = scene.shaded().Ci.at(3);
     scene.light("distantlight", {number("intensity", 0.5f)});
-    expect_near(scene.shaded().Ci.at(3), one * 1.5f, 1e-6f);
+    expect_near_triple(scene.shaded().Ci.at(3), one * 1.5f, 1e-6f);
 }
 
 TEST(Surfaces, OrthographicViewsLookAlongZ) {
-    TestScene scene;
+    ShadingScene scene;
     scene.context.camera.perspective = false;
     const ShadingGrid grid = scene.shaded();
-    for (size_t i = 0; i < grid.vertex_count(); ++i) expect_near(grid.Ci.at(i), kOs * kCs, 1e-6f);
+    for (size_t i = 0; i < grid.vertex_count(); ++i) expect_near_triple(grid.Ci.at(i), kOs * kCs, 1e-6f);
 }
 
 GridVariable variable(std::string name, Declaration declaration, std::vector<std::vector<float>> planes,
@@ -172,7 +179,7 @@ GridVariable variable(std::string name, Declaration declaration, std::vector<std
 }
 
 TEST(PrimitiveVariables, ReplaceParameters) {
-    TestScene scene;
+    ShadingScene scene;
     scene.light("distantlight");
     scene.surface("matte", {number("Kd", 1)});
     const V3f full = scene.shaded().Ci.at(0);
@@ -182,15 +189,15 @@ TEST(PrimitiveVariables, ReplaceParameters) {
     scene.declare("Kd", {StorageClass::Vertex, ValueType::Float, 1});
     grid.variables.push_back(variable("Kd", {StorageClass::Vertex, ValueType::Float, 1}, {Kd}, false));
     const ShadingGrid varying = scene.shaded(grid);
-    for (size_t i = 0; i < Kd.size(); ++i) expect_near(varying.Ci.at(i), full * Kd[i], 1e-6f);
+    for (size_t i = 0; i < Kd.size(); ++i) expect_near_triple(varying.Ci.at(i), full * Kd[i], 1e-6f);
 
     grid.variables[0] = variable("Kd", {StorageClass::Constant, ValueType::Float, 1}, {{0.5f}}, true);
     const ShadingGrid constant = scene.shaded(grid);
-    for (size_t i = 0; i < Kd.size(); ++i) expect_near(constant.Ci.at(i), full * 0.5f, 1e-6f);
+    for (size_t i = 0; i < Kd.size(); ++i) expect_near_triple(constant.Ci.at(i), full * 0.5f, 1e-6f);
 }
 
 TEST(PrimitiveVariables, ReplaceColors) {
-    TestScene scene;
+    ShadingScene scene;
     light(scene);
     const V3f tint(0.2f, 0.9f, 0.4f);
     scene.surface("plastic", {color("specularcolor", tint)});
@@ -207,7 +214,7 @@ TEST(PrimitiveVariables, ReplaceColors) {
 }
 
 TEST(PrimitiveVariables, OfAnotherTypeDoNot) {
-    TestScene scene;
+    ShadingScene scene;
     light(scene);
     scene.surface("matte");
     ShadingGrid grid = scene.grid();
@@ -218,7 +225,7 @@ TEST(PrimitiveVariables, OfAnotherTypeDoNot) {
 
 TEST(Surfaces, DegenerateInputGivesFiniteColors) {
     for (const char* name : {"constant", "matte", "plastic", "metal", "paintedplastic", "defaultsurface"}) {
-        TestScene scene;
+        ShadingScene scene;
         scene.surface(name);
         if (std::string(name) == "plastic" || std::string(name) == "metal")
             scene.surface(name, {number("roughness", 0)});

@@ -21,11 +21,13 @@ struct RayParameter {
 /// What rays are told (docs/rays.md, docs/point_clouds.md).
 constexpr RayParameter kKnown[] = {
     {"samples", Takes::Number},
+    {"minsamples", Takes::Number},
     {"samplecone", Takes::Number},
     {"coneangle", Takes::Number},
     {"distribution", Takes::Text, {"cosine", "uniform"}},
     {"hitsides", Takes::Text, {"front", "back", "both"}},
     {"subset", Takes::Text},
+    {"excludesubset", Takes::Text},
     {"hitmode", Takes::Text, {"shader", "primitive", "default"}},
     {"label", Takes::Text},
     {"samplebase", Takes::Number},
@@ -42,17 +44,22 @@ constexpr RayParameter kKnown[] = {
     {"maxsolidangle", Takes::Number},
     {"clamp", Takes::Number},
 };
-/// What calls set; the analysis knows which do.
-constexpr std::string_view kSet[] = {"environmentcolor", "environmentdir", "occlusion"};
-/// Of PRMan's shaders: taken, and nothing changes. Most are about how results are interpolated between
-/// points.
-constexpr std::string_view kOverlooked[] = {
-    "adaptive",     "attenuation",  "brightness",   "cosinespread",   "excludesubset", "maxerror", "maxhits",
-    "maxpixeldist", "maxvariation", "minsamples",   "occlusionscale", "radiosity",     "raytype",  "sides",
-    "sortbleeding", "surfaceblur",  "surfacecolor", "transmission",   "volume",        "weight",   "hitdist"};
-/// What calls with a map are told; with rays nothing changes.
-constexpr std::string_view kOfMaps[] = {"blur", "sblur", "tblur", "width", "swidth", "twidth",    "filter",
-                                        "fill", "wrap",  "swrap", "twrap", "lerp",   "colorspace"};
+/// What occlusion() and indirectdiffuse() set.
+constexpr std::string_view kSet[] = {"environmentcolor", "environmentdir", "hitdist", "occlusion"};
+/// Of PRMan's shaders: how far fewer rays may do, and how far results may be interpolated from points nearby.
+/// Every point sends all of its rays, and nearer surfaces always hide farther ones, so that results are at
+/// least as good as these ask for.
+constexpr std::string_view kHints[] = {"adaptive", "maxerror", "maxpixeldist", "maxvariation",
+                                       "sortbleeding"};
+/// Of PRMan's shaders: they would change the picture, but nothing is made of them.
+constexpr std::string_view kWithoutEffect[] = {
+    "attenuation", "brightness",  "cosinespread", "maxhits",      "occlusionscale", "radiosity", "raytype",
+    "sides",       "surfaceblur", "surfacecolor", "transmission", "volume",         "weight"};
+/// What calls with a map are told of how it is filtered; rays have no map.
+constexpr std::string_view kOfMaps[] = {"width", "swidth", "twidth", "filter", "fill",
+                                        "wrap",  "swrap",  "twrap",  "lerp",   "colorspace"};
+/// Likewise; but who asks for it wants something blurred.
+constexpr std::string_view kBlurs[] = {"blur", "sblur", "tblur"};
 
 constexpr std::string_view kIs[] = {"float", "triple of floats", "string", "matrix or an array"};
 constexpr std::string_view kTakes[] = {"float", "color", "string"};
@@ -76,7 +83,14 @@ std::string listed(const std::string& text, std::string_view name) {
 
 std::string ray_argument_problem(std::string_view call, std::string_view name, const RayArgumentValue& value,
                                  bool of_map) {
-    if (has(kSet, name) || has(kOverlooked, name) || (of_map && has(kOfMaps, name))) return {};
+    const bool over_sky = call == "occlusion" || call == "indirectdiffuse";
+    if (has(kHints, name) || (over_sky && has(kSet, name)) || (of_map && has(kOfMaps, name))) return {};
+    if (has(kSet, name) || has(kWithoutEffect, name))
+        return fmt::format("\"{}\" of {}() has no effect", name, call);
+    if (of_map && has(kBlurs, name)) {
+        if (value.number == 0.0f) return {};
+        return fmt::format("\"{}\" of {}() has no effect on rays, which \"samplecone\" spreads", name, call);
+    }
     std::string names;
     const auto* const known = std::ranges::find(kKnown, name, &RayParameter::name);
     if (known == std::end(kKnown)) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,6 +13,7 @@ struct RayArgumentValue {
     enum class Is : uint8_t { Number, Triple, Text, Other };
     Is is = Is::Other;
     const std::string* text = nullptr;  ///< of a Text, if it is known
+    std::optional<float> number = {};   ///< of a Number, if it is known and everywhere the same
 };
 
 /// What is wrong with an optional argument of a call, as a warning says it; empty if nothing is. `of_map`:

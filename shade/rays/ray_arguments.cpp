@@ -74,8 +74,10 @@ void warn_of(vm::Run& run, const vm::Step& step, size_t operand, bool of_map) {
                   : type.base == rsl::Base::String ? Is::Text
                   : type.is_triple()               ? Is::Triple
                                                    : Is::Other;
-    const std::string* const text = is == Is::Text ? &registers.text(value) : nullptr;
-    const std::string problem = rsl::ray_argument_problem(name_of(step.op), name, {is, text}, of_map);
+    rsl::RayArgumentValue given{is, is == Is::Text ? &registers.text(value) : nullptr};
+    const vm::Operand& number = registers.operand(value);
+    if (is == Is::Number && number.lane_mask == 0) given.number = vm::Run::at(number, 0, 0);
+    const std::string problem = rsl::ray_argument_problem(name_of(step.op), name, given, of_map);
     if (!problem.empty())
         run.warn(step, problem,
                  rsl::ray_argument_warning(step.at.source, step.at.line, step.at.column, name));
@@ -124,17 +126,11 @@ RayArguments::RayArguments(vm::Run& run, const vm::Step& step, std::span<const v
     const size_t unnamed = step.op == Op::Gather ? 0 : 1, named = step.outputs - unnamed;
     for (size_t k = 0; k < named; ++k)
         outputs.push_back({registers.text_input(step, plain + k), &operands[unnamed + k]});
-    const std::pair<std::string_view, LaneValue*> known[] = {{"samples", &samples_},
-                                                             {"bias", &bias},
-                                                             {"maxdist", &max_distance_},
-                                                             {"coneangle", &cone_angle_},
-                                                             {"falloff", &falloff},
-                                                             {"samplecone", &sample_cone_},
-                                                             {"falloffmode", &falloff_mode},
-                                                             {"samplebase", &sample_base},
-                                                             {"pointbased", &point_based},
-                                                             {"maxsolidangle", &max_solid_angle},
-                                                             {"clamp", &clamp}};
+    const std::pair<std::string_view, LaneValue*> known[] = {
+        {"samples", &samples_},        {"minsamples", &min_samples_},       {"bias", &bias},
+        {"maxdist", &max_distance_},   {"coneangle", &cone_angle_},         {"falloff", &falloff},
+        {"samplecone", &sample_cone_}, {"falloffmode", &falloff_mode},      {"samplebase", &sample_base},
+        {"pointbased", &point_based},  {"maxsolidangle", &max_solid_angle}, {"clamp", &clamp}};
     V3f threshold;
     for (size_t i = end + named; i + 1 < step.count; i += 2) {
         const std::string& name = registers.text(registers.register_of(step, i));
@@ -173,6 +169,10 @@ void RayArguments::take_text(std::string_view name, const std::string& text) {
         filter_.subset = RaySubset(text);
         filters_ = filters_ || !text.empty();
     }
+    if (name == "excludesubset") {
+        filter_.excluded = RaySubset(text);
+        filters_ = filters_ || !text.empty();
+    }
 }
 
 V3f RayArguments::from_at(size_t lane) const {
@@ -186,8 +186,13 @@ V3f RayArguments::towards_at(size_t lane) const {
 }
 
 int RayArguments::samples_at(size_t lane) const {
-    const float count = samples_.at(lane);
+    const float asked = samples_.at(lane), least = min_samples_.at(lane);
+    const float count = least > asked ? least : asked;  // also where "minsamples" is NaN
     return count >= 1 ? static_cast<int>(std::min(count, kMostSamples)) : least_samples_;  // also NaN
+}
+
+bool RayArguments::sets(std::string_view name) const {
+    return std::ranges::find(outputs, name, &Output::name) != outputs.end();
 }
 
 float RayArguments::sample_cone_at(size_t lane) const {

@@ -28,7 +28,8 @@ struct RayArguments {
     V3f from_at(size_t lane) const;  ///< the first point
     V3f towards_at(
         size_t lane) const;  ///< a direction, a normal or the second point; of shadow(), to the light
-    int samples_at(size_t lane) const;  ///< at least 1; of gather() 0 where it asks for less
+    /// "samples", or "minsamples" where that is more; at least 1, of gather() 0 where it asks for less.
+    int samples_at(size_t lane) const;
     /// Of "samplecone", the half angle of the cone over which rays are spread.
     float sample_cone_at(size_t lane) const;
     /// Of "coneangle", the half angle of the part of the sky that is looked at; of gather() the angle that it
@@ -38,7 +39,7 @@ struct RayArguments {
     /// How much a hit at a distance counts for occlusion().
     float falloff_at(float distance, size_t lane) const;
     RayFilter::Sides sides() const { return filter_.sides; }  ///< "hitsides"
-    /// Of "hitsides" and "subset"; null where all hits count.
+    /// Of "hitsides", "subset" and "excludesubset"; null where all hits count.
     const RayFilter* only() const { return filters_ ? &filter_ : nullptr; }
     /// The first argument, if it is a text: a map, a category.
     std::string_view map() const { return map_; }
@@ -63,6 +64,7 @@ struct RayArguments {
         const vm::Operand* operand;
     };
     std::vector<Output> outputs;
+    bool sets(std::string_view name) const;  ///< whether it is one of the outputs
 
   private:
     void take_text(std::string_view name, const std::string& text);
@@ -74,7 +76,7 @@ struct RayArguments {
     std::string_view map_;
     RayFilter filter_;
     bool filters_ = false;
-    LaneValue samples_, sample_cone_, cone_angle_, max_distance_;
+    LaneValue samples_, min_samples_, sample_cone_, cone_angle_, max_distance_;
 };
 
 }  // namespace trapeze

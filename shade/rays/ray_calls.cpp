@@ -116,7 +116,8 @@ namespace {
 /// Sums over a lane's rays, for what is set besides the result.
 struct LaneSums {
     V3f sky{0, 0, 0}, open_way{0, 0, 0};
-    float hidden = 0;
+    float hidden = 0, way = 0;
+    size_t hits = 0;  ///< of the rays; `way` is how far they go
 
     void put(const RayArguments& arguments, const RayLane& lane, size_t rays) const {
         const float count = static_cast<float>(std::max<size_t>(rays, 1));
@@ -124,6 +125,9 @@ struct LaneSums {
             if (output.name == "environmentcolor") trapeze::put(*output.operand, lane, sky / count);
             if (output.name == "environmentdir") trapeze::put(*output.operand, lane, open_way.normalized());
             if (output.name == "occlusion") trapeze::put(*output.operand, lane, V3f(hidden / count));
+            if (output.name == "hitdist")
+                trapeze::put(*output.operand, lane,
+                             V3f(hits > 0 ? way / static_cast<float>(hits) : kInfinity));
         }
     }
 };
@@ -189,6 +193,7 @@ void RayCalls::tell(const Call& call, const Operand& out, std::span<const RayLan
             if (!sent.sky.empty()) sums.sky += sent.sky[ray];
             sums.open_way += one.segment.direction * ((one.through.x + one.through.y + one.through.z) / 3);
             sums.hidden += hidden_by(one, arguments, lane);
+            if (one.hits()) sums.way += one.told_distance(), ++sums.hits;
         }
         put(out, lanes[i], ray > from ? sum / static_cast<float>(ray - from) : nothing);
         sums.put(arguments, lanes[i], ray - from);
@@ -307,7 +312,8 @@ Task<bool> RayCalls::follow(const Call& call, std::span<WalkedRay> rays) const {
         if (!too_deep) co_await walk.radiance(rays, ask);
         co_return !too_deep;
     }
-    co_await walk.transmission(rays, ask, op == Op::Occlusion && arguments.falloff.operand);
+    const bool by_distance = op == Op::Occlusion && (arguments.falloff.operand || arguments.sets("hitdist"));
+    co_await walk.transmission(rays, ask, by_distance);
     co_return true;
 }
 

@@ -6,11 +6,13 @@
 namespace trapeze {
 namespace {
 
-/// Hits that are shaded together; rays in memory at once, about; and the most surfaces that one looks
-/// through.
+/// Hits that are shaded together; and rays in memory at once, about.
 constexpr size_t kShadedTogether = 256;
 constexpr size_t kRaysAtOnce = 4096;
-constexpr int kMostLayersOfRay = 64;
+/// The most surfaces that a ray looks through: a bound on scenes where next to nothing stops it. Otherwise it
+/// goes on as long as light is left. Behind the last one it ends as where nothing is hit: what has been seen,
+/// and what is left of the light, stay as they are.
+constexpr int kMostLayersOfRay = 4096;
 /// Less light than this is none: half of the smallest step of eight bits.
 constexpr float kNothingLeft = 1.0f / 512;
 
@@ -110,7 +112,9 @@ Task<> RayWalk::walk(std::span<WalkedRay* const> rays, const RayAsk& ask, Wants 
     }
 }
 
-/// Adds a surface to what its ray has seen; whether the ray goes on behind it.
+/// Adds a surface to what its ray has seen; whether the ray goes on behind it. Attributes::matte means
+/// nothing here: what is held out of the picture is held out of the camera's view alone, and reflections and
+/// shadows have it.
 bool RayWalk::pass(const Met& met, const RayAsk& ask) const {
     WalkedRay& ray = *met.ray;
     const bool own = met.vertex < 0;

@@ -10,6 +10,8 @@ namespace trapeze::rsl {
 namespace {
 
 /// Preprocessor, values of numbers and strings, parser. The tree is of use only if nothing has failed.
+/// Nothing is parsed once the preprocessor has reported too much: tokens of a file that is no shader would
+/// bring an error each.
 std::unique_ptr<TranslationUnit> parse_with(const Source& source, const CompileOptions& options,
                                             Reporter& reporter) {
     TokenStream stream = preprocess(source, options, reporter);
@@ -20,6 +22,7 @@ std::unique_ptr<TranslationUnit> parse_with(const Source& source, const CompileO
 
 }  // namespace
 
+/// The tree as the source has it, before anything has a type.
 std::unique_ptr<TranslationUnit> parse(const Source& source, const CompileOptions& options,
                                        Diagnostics& diagnostics) {
     Reporter reporter(diagnostics);
@@ -27,6 +30,7 @@ std::unique_ptr<TranslationUnit> parse(const Source& source, const CompileOption
     return reporter.failed() ? nullptr : std::move(unit);
 }
 
+/// Null after any error, reported; never a tree that is half analysed. Warnings do not count.
 std::unique_ptr<TranslationUnit> compile_front(const Source& source, const CompileOptions& options,
                                                Diagnostics& diagnostics) {
     Reporter reporter(diagnostics);

@@ -1,7 +1,13 @@
 #include "shade/rsl/front_end_harness.h"
 
-namespace trapeze::rsl::testing {
+namespace trapeze::testing {
 namespace {
+
+using rsl::Expression;
+using rsl::Function;
+using rsl::Shader;
+using rsl::Statement;
+using rsl::Variable;
 
 template <class T, class Same>
 bool same_list(const std::vector<T>& a, const std::vector<T>& b, Same&& same_item) {
@@ -42,8 +48,8 @@ bool same_shader(const Shader& a, const Shader& b) {
 
 }  // namespace
 
-bool same(const TranslationUnit& a, const TranslationUnit& b) {
+bool same(const rsl::TranslationUnit& a, const rsl::TranslationUnit& b) {
     return same_list(a.functions, b.functions, same_function) && same_list(a.shaders, b.shaders, same_shader);
 }
 
-}  // namespace trapeze::rsl::testing
+}  // namespace trapeze::testing

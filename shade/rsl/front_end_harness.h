@@ -10,7 +10,7 @@
 #include "core/files/file_text_harness.h"
 #include "shade/rsl/front_end.h"
 
-namespace trapeze::rsl::testing {
+namespace trapeze::testing {
 
 /// Collects messages as "error 3:5: text", without the file's name.
 struct Heard {
@@ -40,6 +40,6 @@ inline std::vector<std::filesystem::path> shaders_in(const std::string& folder) 
     return paths;
 }
 
-bool same(const TranslationUnit& a, const TranslationUnit& b);
+bool same(const rsl::TranslationUnit& a, const rsl::TranslationUnit& b);
 
-}  // namespace trapeze::rsl::testing
+}  // namespace trapeze::testing

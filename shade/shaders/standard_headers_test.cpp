@@ -8,10 +8,16 @@
 namespace trapeze {
 namespace {
 
+using testing::expect_near_triple;
+using testing::number;
+using testing::point;
+using testing::ShaderFolder;
+using testing::ShadingScene;
+
 /// What a surface shader of these statements gives, at one point of a plane that faces the eye, lit by a
 /// distant light from the eye; no message must come.
 V3f result_of(const std::string& headers, const std::string& statements, const std::string& parameters = "") {
-    TestScene scene;
+    ShadingScene scene;
     const ShaderFolder folder;
     folder.write("tried", headers + "\nsurface tried(" + parameters + ") { float a = 0, b = 0, c = 0;\n" +
                               statements + "\nCi = color(a, b, c); Oi = 1; }\n");
@@ -25,7 +31,7 @@ V3f result_of(const std::string& headers, const std::string& statements, const s
     return grid.Ci.at(0);
 }
 
-void expect_near(const V3f& got, const V3f& expected) {
+void expect_near_triple(const V3f& got, const V3f& expected) {
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(got[k], expected[k], 1e-5f) << k;
 }
 
@@ -33,29 +39,31 @@ TEST(StandardHeaders, PatternsAreAveragesOverTheFilter) {
     const std::string header = "#include \"patterns.h\"";
     // |x| over -1..3: (1/2 + 9/2) / 4. A wide filter sees the mean: half of the smoothstep's range, 3/4 of a
     // train.
-    expect_near(result_of(header,
-                          "a = filteredabs(1, 4); b = filteredsmoothstep(0, 1, 0.5, 8);"
-                          "c = filteredpulsetrain(0.5, 2, 1.3, 4);"),
-                V3f(1.25f, 0.5f, 0.75f));
-    expect_near(
+    expect_near_triple(result_of(header,
+                                 "a = filteredabs(1, 4); b = filteredsmoothstep(0, 1, 0.5, 8);"
+                                 "c = filteredpulsetrain(0.5, 2, 1.3, 4);"),
+                       V3f(1.25f, 0.5f, 0.75f));
+    expect_near_triple(
         result_of(header, "a = pulse(1, 2, 1.5); b = pulse(1, 2, 2.5); c = filteredpulse(0, 1, 1, 1);"),
         V3f(1, 0, 0.5f));
-    expect_near(result_of(header, "a = pulsetrain(0.5, 1, 3.7); b = pulsetrain(0.5, 1, 3.2); c = sqr(3);"),
-                V3f(1, 0, 9));
-    expect_near(result_of(header,
-                          "float row, column; basicbrick(2.5, 1.25, 1, 0.5, 0.5, 0, 0, 0, column, row, a, b);"
-                          "c = column + 10 * row;"),
-                V3f(0.5f, 0.5f, 22));  // column 2 of row 2, staggered by mod(0.5 * 2, 1) = 0
+    expect_near_triple(
+        result_of(header, "a = pulsetrain(0.5, 1, 3.7); b = pulsetrain(0.5, 1, 3.2); c = sqr(3);"),
+        V3f(1, 0, 9));
+    expect_near_triple(
+        result_of(header,
+                  "float row, column; basicbrick(2.5, 1.25, 1, 0.5, 0.5, 0, 0, 0, column, row, a, b);"
+                  "c = column + 10 * row;"),
+        V3f(0.5f, 0.5f, 22));  // column 2 of row 2, staggered by mod(0.5 * 2, 1) = 0
 }
 
 TEST(StandardHeaders, RaysMeetSpheresTwiceOrOnceOrNever) {
     const std::string header = "#include <raysphere.h>";
-    expect_near(result_of(header, "c = raysphere(point(0, 0, -5), vector(0, 0, 1), 2, 0.001, a, b);"),
-                V3f(3, 7, 2));
-    expect_near(result_of(header, "c = raysphere(point(0, 0, 0), vector(0, 1, 0), 2, 0.001, a, b);"),
-                V3f(2, 2, 1));
-    expect_near(result_of(header, "c = raysphere(point(0, 3, -5), vector(0, 0, 1), 2, 0.001, a, b);"),
-                V3f(0, 0, 0));
+    expect_near_triple(result_of(header, "c = raysphere(point(0, 0, -5), vector(0, 0, 1), 2, 0.001, a, b);"),
+                       V3f(3, 7, 2));
+    expect_near_triple(result_of(header, "c = raysphere(point(0, 0, 0), vector(0, 1, 0), 2, 0.001, a, b);"),
+                       V3f(2, 2, 1));
+    expect_near_triple(result_of(header, "c = raysphere(point(0, 3, -5), vector(0, 0, 1), 2, 0.001, a, b);"),
+                       V3f(0, 0, 0));
 }
 
 TEST(StandardHeaders, NoisesAreSignedAndFadeOut) {
@@ -68,24 +76,25 @@ TEST(StandardHeaders, NoisesAreSignedAndFadeOut) {
     EXPECT_EQ(fade.y, 0);
     EXPECT_NEAR(fade.z, 0, 1e-3f);
     // Without jitter the points are the middles of cells.
-    expect_near(result_of(header,
-                          "float f1, f2; point p1, p2;"
-                          "voronoi_f1f2_3d(point(0.5, 0.75, 0.5), 0, f1, p1, f2, p2);"
-                          "a = f1; b = f2; voronoi_f1_2d(2.5, 3.1, 0, c, f1, f2);"),
-                V3f(0.25f, 0.75f, 0.4f));
+    expect_near_triple(result_of(header,
+                                 "float f1, f2; point p1, p2;"
+                                 "voronoi_f1f2_3d(point(0.5, 0.75, 0.5), 0, f1, p1, f2, p2);"
+                                 "a = f1; b = f2; voronoi_f1_2d(2.5, 3.1, 0, c, f1, f2);"),
+                       V3f(0.25f, 0.75f, 0.4f));
 }
 
 TEST(StandardHeaders, MasksAndTiles) {
     const std::string header = "#include \"rmannotes.sl\"";
-    expect_near(
+    expect_near_triple(
         result_of(header,
                   "a = union(0.5, 0.5); b = intersection(0.5, complement(0.75)); c = blend(1, 3, 0.5);"),
         V3f(0.75f, 0.125f, 2));
-    expect_near(
+    expect_near_triple(
         result_of(header, "a = repeat(0.35, 10); b = whichtile(0.35, 10); if (odd(b) && !even(b)) c = 1;"),
         V3f(0.5f, 3, 1));
-    expect_near(result_of(header, "rotate2d(1, 0, PI / 2, 0, 0, a, b); c = pulse(0.2, 0.6, 0.1, 0.4);"),
-                V3f(0, 1, 1));
+    expect_near_triple(
+        result_of(header, "rotate2d(1, 0, PI / 2, 0, 0, a, b); c = pulse(0.2, 0.6, 0.1, 0.4);"),
+        V3f(0, 1, 1));
 }
 
 constexpr const char* kFacing = "normal Nf = faceforward(normalize(N), I); vector V = -normalize(I);\n";
@@ -111,11 +120,11 @@ TEST(StandardHeaders, LocalIlluminationHasItsLimits) {
     EXPECT_NEAR(brushed.x, brushed.y, 2e-2f * brushed.x);
     EXPECT_NEAR(brushed.z, 2, 1e-3f);
     // A sharp gloss is 1 inside and 0 outside.
-    expect_near(result_of("#include \"locillum.h\"",
-                          "vector V = vector(0, 0, -1);"
-                          "a = comp(LocIllumGlossy(normal(0, 0, -1), V, 0.1, 1), 0);"
-                          "b = comp(LocIllumGlossy(normalize(normal(1, 0, -1)), V, 0.1, 1), 0);"),
-                V3f(1, 0, 0));
+    expect_near_triple(result_of("#include \"locillum.h\"",
+                                 "vector V = vector(0, 0, -1);"
+                                 "a = comp(LocIllumGlossy(normal(0, 0, -1), V, 0.1, 1), 0);"
+                                 "b = comp(LocIllumGlossy(normalize(normal(1, 0, -1)), V, 0.1, 1), 0);"),
+                       V3f(1, 0, 0));
 }
 
 TEST(StandardHeaders, MaterialsAreSumsOfTheirParts) {
@@ -158,41 +167,44 @@ TEST(StandardHeaders, MaterialsAreSumsOfTheirParts) {
 TEST(StandardHeaders, ProjectionsCoverTheTexture) {
     const std::string header = "#include \"project.h\"";
     const std::string unit = "float m[16] = {1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1}; float ds, dt;";
-    expect_near(result_of(header, unit + "spherical_projection(point(0, -2, 0), a, b, ds, dt);"),
-                V3f(0.75f, 0.5f, 0));
+    expect_near_triple(result_of(header, unit + "spherical_projection(point(0, -2, 0), a, b, ds, dt);"),
+                       V3f(0.75f, 0.5f, 0));
     const V3f round = result_of(header, unit +
                                             "spherical_projection(point(1, 0, 1), a, b, ds, dt);"
                                             "float x; cylindrical_projection(point(1, 0, 5), x, c, ds, dt);");
-    expect_near(round, V3f(0.5f, 0.25f, 5));
+    expect_near_triple(round, V3f(0.5f, 0.25f, 5));
     const V3f flat = result_of(
         header,
         unit +
             "point at = point(3, 4, 2);"
             "ProjectTo2D(\"perspective\", at, \"current\", array_to_mx(m), a, b, ds, dt);"
             "float x; m[13] = 10; ProjectTo2D(\"planar\", at, \"current\", array_to_mx(m), x, c, ds, dt);");
-    expect_near(flat, V3f(1.5f, 2, 14));
-    expect_near(result_of(header, unit + "ProjectTo2D(\"st\", P, \"current\", array_to_mx(m), a, b, ds, dt);"
-                                         "a -= s; b -= t;"),
-                V3f(0));
+    expect_near_triple(flat, V3f(1.5f, 2, 14));
+    expect_near_triple(
+        result_of(header, unit + "ProjectTo2D(\"st\", P, \"current\", array_to_mx(m), a, b, ds, dt);"
+                                 "a -= s; b -= t;"),
+        V3f(0));
 }
 
 TEST(StandardHeaders, DisplaceMovesAndBends) {
-    expect_near(result_of("#include \"displace.h\"",
-                          "point before = P; normal Nn = Displace(vector(0, 0, 1), \"current\", 0.5, 0);"
-                          "a = distance(P, before); b = abs(zcomp(Nn)); c = length(Nn);"),
-                V3f(0, 1, 1));
+    expect_near_triple(
+        result_of("#include \"displace.h\"",
+                  "point before = P; normal Nn = Displace(vector(0, 0, 1), \"current\", 0.5, 0);"
+                  "a = distance(P, before); b = abs(zcomp(Nn)); c = length(Nn);"),
+        V3f(0, 1, 1));
 }
 
 TEST(StandardHeaders, ShadersDeclareWhereTheyComputeTheirPattern) {
-    expect_near(
+    expect_near_triple(
         result_of("#include \"pshad.h\"",
                   "GET_PSHAD; a = distance(Pshad, 2 * transform(\"shader\", P)); if (dPshad > 0) b = 1;",
                   "PSHAD_PARAMS(\"shader\", 2)"),
         V3f(0, 1, 0));
-    expect_near(result_of("#define USE_PREF 1\n#include \"pshad.h\"",
-                          "GET_PSHAD; a = distance(Pshad, transform(\"shader\", P)); if (dPshad > 0) b = 1;",
-                          "DEFAULT_PSHAD_PARAMS"),
-                V3f(0, 1, 0));
+    expect_near_triple(
+        result_of("#define USE_PREF 1\n#include \"pshad.h\"",
+                  "GET_PSHAD; a = distance(Pshad, transform(\"shader\", P)); if (dPshad > 0) b = 1;",
+                  "DEFAULT_PSHAD_PARAMS"),
+        V3f(0, 1, 0));
 }
 
 TEST(StandardHeaders, WoodLiesBetweenItsLimits) {
@@ -209,7 +221,7 @@ TEST(StandardHeaders, WoodLiesBetweenItsLimits) {
 }
 
 TEST(StandardHeaders, ManifoldsAreFiltered) {
-    expect_near(
+    expect_near_triple(
         result_of("#include \"pxslUtil.h\"\n#include \"pxslRayUtil.h\"\n#include \"pxslRemap.h\"",
                   "point q = point(0.3, 0.4, 0.5); vector wide = 10;"
                   "a = pxslFilteredFNoise(q, wide, vector(0, 0, 10)); b = pxslBimix(1, 2, 3, 4, 0, 1);"
@@ -236,7 +248,7 @@ TEST(StandardHeaders, AFolderOfOnesOwnComesFirst) {
     const ShaderFolder folder;
     std::ofstream(folder.path() + "/patterns.h") << "#define sqr(x) 7\n";
     folder.write("mine", "#include \"patterns.h\"\nsurface mine() { Ci = sqr(2); Oi = 1; }");
-    TestScene scene;
+    ShadingScene scene;
     scene.scene.options.search_paths["shader"] = {folder.path()};
     scene.surface("mine");
     EXPECT_EQ(scene.shaded().Ci.at(0), V3f(7));

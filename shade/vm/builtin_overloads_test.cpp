@@ -4,11 +4,18 @@
 #include <set>
 
 #include "shade/rsl/analysis/builtins.h"
-#include "shade/vm/builtin_cases.h"
+#include "shade/vm/builtin_cases_harness.h"
 #include "shade/vm/run_shader_harness.h"
 
-namespace trapeze::vm::testing {
+namespace trapeze::vm {
 namespace {
+
+using testing::asking_cases;
+using testing::BuiltinCase;
+using testing::geometry_cases;
+using testing::number_cases;
+using testing::pattern_cases;
+using testing::ShaderRun;
 
 /// How X and Y come to a case.
 enum class Way { Varying, Masked, Uniform, Constant };
@@ -144,4 +151,4 @@ TEST(BuiltinOverloads, AllHaveACase) {
 }
 
 }  // namespace
-}  // namespace trapeze::vm::testing
+}  // namespace trapeze::vm

@@ -6,8 +6,11 @@
 
 #include "shade/vm/run_shader_harness.h"
 
-namespace trapeze::vm::testing {
+namespace trapeze::vm {
 namespace {
+
+using testing::expect_values;
+using testing::ShaderRun;
 
 constexpr float kTurn = 6.28318531f;
 constexpr float kTight = 2e-6f;
@@ -247,4 +250,4 @@ TEST(Builtins, PrintfSpeaksOnceForWhatIsUniformAndElseForEachVertex) {
 }
 
 }  // namespace
-}  // namespace trapeze::vm::testing
+}  // namespace trapeze::vm

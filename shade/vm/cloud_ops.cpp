@@ -9,6 +9,8 @@ namespace {
 
 using rsl::Op;
 
+/// Without clouds, as when a shader is run alone, the call fails as it would for a file that cannot be
+/// written: 0.
 void bake3d(Run& run, const Step& step, std::span<const Operand> operands) {
     if (run.context().clouds)
         run.context().clouds->bake(run, step, operands);
@@ -16,6 +18,7 @@ void bake3d(Run& run, const Step& step, std::span<const Operand> operands) {
         fill_operand(run, operands[0], std::array{0.0f});
 }
 
+/// Without clouds 0, and the outputs keep what they hold.
 void texture3d(Run& run, const Step& step, std::span<const Operand> operands) {
     if (run.context().clouds)
         run.context().clouds->look_up(run, step, operands);

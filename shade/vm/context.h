@@ -31,7 +31,9 @@ struct Batch {
     std::vector<GridSpan> spans;
 };
 
-/// Coordinate systems by name.
+/// The coordinate systems that shaders name in transform(), mtransform() and casts of points: the predefined
+/// ones, those of CoordinateSystem, and the shader's own. Points of a run are in "current" space, which here
+/// is camera space for every kind of shader.
 class Spaces {
   public:
     virtual ~Spaces() = default;
@@ -39,7 +41,9 @@ class Spaces {
     virtual std::optional<M44f> matrix(std::string_view from, std::string_view to) const = 0;
 };
 
-/// Texture, environment and shadow maps.
+/// Texture, environment and shadow maps, by the names that shaders write. shade/maps implements it over
+/// files; the machine hands on whole steps and not single lookups, since what one costs besides its
+/// arithmetic (finding the file, reading the named arguments) is paid once for a batch.
 class Maps {
   public:
     virtual ~Maps() = default;
@@ -51,7 +55,8 @@ class Maps {
                      std::span<V3f> colors) = 0;
 };
 
-/// Point clouds.
+/// Point clouds: files of discs that bake3d() writes and texture3d(), occlusion() and indirectdiffuse() read
+/// [Christensen08]. shade/clouds implements it.
 class Clouds {
   public:
     virtual ~Clouds() = default;
@@ -63,12 +68,15 @@ class Clouds {
     virtual bool over_discs(Run& run, const Step& step, std::span<const Operand> operands) = 0;
 };
 
-/// The lights of a grid, and what they send to points.
+/// The lights of a grid, and what they send to points. A light is known by its number, from 0 on; an area
+/// light counts as many, each of them at another place of its shape [decision 0030].
 class Lights {
   public:
     virtual ~Lights() = default;
     virtual size_t count() const = 0;
 
+    /// One light as the points of a batch see it. The planes belong to whoever implements Lights and hold
+    /// until the next call for the same light; their lanes are those of the run that asked.
     struct Arriving {
         bool ambient = false;
         const float* L = nullptr;              ///< to the light; 3 planes
@@ -86,7 +94,8 @@ class Lights {
     virtual bool in_category(size_t light, std::string_view wanted) = 0;
 };
 
-/// The rays of a gather block, of which each lane has one in each turn.
+/// The rays of a gather block, of which each lane has one in each turn. It is made when a block is entered,
+/// once for all its lanes, and dropped when the block is left; blocks nest, and each has its own.
 class GatherTurns {
   public:
     virtual ~GatherTurns() = default;
@@ -106,7 +115,8 @@ struct RayFacts {
     std::string_view label;
 };
 
-/// Rays through the scene.
+/// Rays through the scene. What their surfaces send back takes runs of other shaders, which is why most of it
+/// is a Task.
 class Rays {
   public:
     virtual ~Rays() = default;
@@ -119,7 +129,8 @@ class Rays {
     virtual RayFacts facts() const = 0;
 };
 
-/// Variables of the other shaders that work on the grid, attributes and options.
+/// Variables of the other shaders that work on the grid, attributes and options. Its answers are those of
+/// RISpec 3.2, section 15.8: a surface may look at its displacement, a light at the surface that it lights.
 class Messages {
   public:
     virtual ~Messages() = default;
@@ -130,14 +141,17 @@ class Messages {
     virtual std::string shader_name(std::string_view kind) = 0;
 };
 
-/// What an illuminate or solar block tells about the light, gathered over a run of a light shader.
+/// What an illuminate or solar block tells about the light, gathered over a run of a light shader. The block
+/// runs masked, so lanes outside its cone keep what the caller put there before the run.
 struct LightOutput {
     float* L = nullptr;       ///< from the light to the point: 3 planes
     uint32_t* lit = nullptr;  ///< a plane
     bool distant = false;     ///< by a solar block: there is no place that L comes from
 };
 
-/// All may be null where shaders cannot ask.
+/// The surroundings of one run. Pointers are borrowed from who starts it and outlive the run; any of them may
+/// be null, where shaders of its kind cannot ask (an imager has no lights, a test no scene), and the
+/// operation then does what its source file says: nothing is found, nothing is lit.
 struct Context {
     const Batch* batch = nullptr;
     const Spaces* spaces = nullptr;

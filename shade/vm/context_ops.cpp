@@ -4,6 +4,8 @@
 
 namespace trapeze::vm {
 
+/// Lights have operations that wait and no others; an operation of Maps or Rays may be of either kind, and is
+/// found by the one function or the other.
 ContextOp find_context_op(rsl::Op op) {
     using rsl::ContextFamily;
     switch (rsl::row_of(op).context) {
@@ -31,6 +33,8 @@ ContextOp find_context_op(rsl::Op op) {
     return nullptr;
 }
 
+/// Null says that a step is done without leaving the coroutine, which is the cheaper way: only what may run
+/// other shaders is found here.
 WaitingOp find_waiting_op(rsl::Op op) {
     using rsl::ContextFamily;
     switch (rsl::row_of(op).context) {

@@ -16,11 +16,13 @@ struct ContextRow {
     ContextOp function;
 };
 
+/// The same for an operation that may have to run other shaders first, and so is a coroutine.
 struct WaitingRow {
     rsl::Op op;
     WaitingOp function;
 };
 
+/// Tables are short and asked only while a program is laid out, so that a linear search does.
 inline ContextOp context_op_in(std::span<const ContextRow> rows, rsl::Op op) {
     for (const ContextRow& row : rows)
         if (row.op == op) return row.function;
@@ -57,6 +59,7 @@ inline void fill_operand(const Run& run, const Operand& out, std::span<const flo
         std::fill_n(out.data + k * out.stride, plane_size(run, out), values[k]);
 }
 
+/// A Bool is all bits of a lane or none, as kernels/bools.cpp has it, and goes through memory as a float.
 inline void fill_bool(const Run& run, const Operand& out, bool value) {
     const uint32_t bits = value ? ~0u : 0u;
     float lane;

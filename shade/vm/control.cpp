@@ -23,6 +23,7 @@ bool lane_is_set(float lane) {
     return bits != 0;
 }
 
+/// The reverse: the word that masks of kernels hold for true and false.
 float lane_of(bool set) {
     const uint32_t bits = set ? ~0u : 0u;
     float lane;
@@ -30,7 +31,8 @@ float lane_of(bool set) {
     return lane;
 }
 
-/// A plane, or several of so many lanes, as an operand.
+/// A plane, or several of so many lanes, as an operand. Kernels take operands and not planes; this dresses
+/// one up, with the component stride of a varying register.
 Operand varying(float* data, size_t lanes) {
     Operand operand;
     operand.data = data;
@@ -41,6 +43,8 @@ Operand varying(float* data, size_t lanes) {
 
 }  // namespace
 
+/// Steps that never run another shader. Blocks that are not varying leave no trace on the masks, so that
+/// their closing instruction has nothing to undo.
 size_t Run::control(const std::vector<Step>& steps, size_t at) {
     const Step& step = steps[at];
     scratch_used_ = 0;
@@ -157,7 +161,8 @@ size_t Run::loop_step(const std::vector<Step>& steps, size_t at) {
     }
 }
 
-/// Counts the steps of a loop's turn; true when all loops together have had their share.
+/// Counts the steps of a loop's turn; true when all loops together have had their share. A bound besides that
+/// of turns: loops within loops multiply, each with few turns of its own.
 bool Run::steps_are_spent(const Step& opening, size_t steps) {
     loop_steps_ += static_cast<int64_t>(steps);
     if (loop_steps_ <= registers_.executable().max_loop_steps()) return false;
@@ -170,7 +175,8 @@ bool Run::steps_are_spent(const Step& opening, size_t steps) {
     return true;
 }
 
-/// Counts a turn of a loop; true when it was the last that it may have.
+/// Counts a turn of a loop; true when it was the last that it may have. Turns count anew at each entry of the
+/// loop; a shader that loops for ever must not hold up the frame.
 bool Run::turns_are_spent(const Step& opening) {
     const int most = registers_.executable().max_turns();
     if (++turns_[&opening] < most) return false;
@@ -197,7 +203,8 @@ size_t Run::jump_step(const Step& step) {
     return step.target;
 }
 
-/// False when there is nothing to loop over.
+/// False when there is nothing to loop over. Illuminance is a loop for the masks, whose turns are lights:
+/// break and continue in it mean what they mean in other loops.
 bool Run::enter_lights() {
     if (!context_.lights || context_.lights->count() == 0) return false;
     masks_.enter_loop();
@@ -247,6 +254,7 @@ Task<size_t> Run::next_light(const std::vector<Step>& steps, size_t opening) {
     co_return step.target + 1;
 }
 
+/// Null where the program does not name P at all.
 const float* Run::P_data() const {
     const rsl::RegisterId* P = registers_.program().find_global("P");
     return P ? registers_.operand(*P).data : nullptr;

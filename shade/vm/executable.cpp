@@ -40,7 +40,8 @@ size_t rest_of_block(const Blocks& blocks, size_t i) {
     return middle != Blocks::kNone && middle > i ? middle : blocks.end[around];
 }
 
-/// Where a step of control goes on when no lane is left to run what follows it.
+/// Where a step of control goes on when no lane is left to run what follows it. Made once when the code is
+/// laid out, so that a run jumps without a search.
 size_t target_of(const rsl::Code& code, const Blocks& blocks, size_t i) {
     const size_t around = blocks.around[i];
     switch (code[i].op) {
@@ -73,10 +74,13 @@ size_t target_of(const rsl::Code& code, const Blocks& blocks, size_t i) {
 
 }  // namespace
 
+/// Constants come from aligned_alloc(), which delete must not be given.
 void Executable::Free::operator()(float* p) const {
     std::free(p);
 }
 
+/// Registers are placed before steps are made, and defaults of parameters before the code; keeps_P_ is found
+/// last, from the outputs of all instructions, since a call's output argument sets P as an assignment does.
 Executable::Executable(rsl::Program source, const LoopLimits& limits)
     : program_(std::move(source)), limits_(limits) {
     place_registers();

@@ -37,7 +37,9 @@ using WaitingOp = Task<> (*)(Run& run, const Step& step, std::span<const Operand
 ContextOp find_context_op(rsl::Op op);
 WaitingOp find_waiting_op(rsl::Op op);
 
-/// One instruction.
+/// One instruction. A flat copy of an Instruction with everything looked up that can be known before a run,
+/// since a step is done for each batch of grids and an instruction is compiled once. Its operands are a range
+/// of one array that all steps share.
 struct Step {
     rsl::Op op = rsl::Op::Move;
     uint8_t outputs = 0;
@@ -55,8 +57,11 @@ struct Step {
     SourceLocation at;
 };
 
-/// Where a register is in the memory of Registers.
+/// Where a register is in the memory of Registers. Registers turns it into an address when a run says how
+/// many lanes there are; until then only the order of the planes is settled.
 struct Place {
+    /// Where a register's values are: in the executable, shared by all runs; once for a run; once for each
+    /// lane; or as strings, which have no planes.
     enum class Kind : uint8_t { Constant, Uniform, Varying, Text };
     Kind kind = Kind::Uniform;
     uint32_t at = 0;      ///< planes of kLanes floats (Constant, Uniform), planes (Varying), texts
@@ -102,10 +107,14 @@ class Executable {
     int64_t max_loop_steps() const {
         return is_endless() ? std::min(limits_.steps, kAfterwards.steps) : limits_.steps;
     }
+    /// Set by a run whose loops were ended for taking too long, in any thread; counted by the library, as
+    /// what such a shader leaves behind may depend on how its grids were parted.
     void found_endless() const { endless_.store(true, std::memory_order_relaxed); }
     bool is_endless() const { return endless_.load(std::memory_order_relaxed); }
 
   private:
+    /// What loops may spend once one has been found endless: enough for most loops that do end, little enough
+    /// that a frame of such grids still finishes.
     static constexpr LoopLimits kAfterwards{256, 100'000};
 
     void place_registers();

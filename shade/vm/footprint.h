@@ -16,10 +16,12 @@ struct Footprint {
     const float* widening = nullptr;
 };
 
-/// The footprints of a batch, computed when the first operation asks for them: most shaders never do.
+/// The footprints of a batch, computed when the first operation asks for them: most shaders never do. Planes
+/// of the answer belong to the object, and are the same whenever it is asked.
 class Footprints {
   public:
     virtual ~Footprints() = default;
+    /// Computes them at the first call.
     virtual const Footprint& get() = 0;
 };
 

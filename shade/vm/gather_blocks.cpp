@@ -29,7 +29,9 @@ class RaysIntoNothing final : public GatherTurns {
 
 }  // namespace
 
-/// Gather and EndGather.
+/// Gather and EndGather. Gather opens the block and starts its first turn. EndGather starts the next one; it
+/// also counts the steps of the turn that has ended, for a gather of very many samples is a loop like any
+/// other (LoopLimits).
 Task<size_t> Run::gather_step(const std::vector<Step>& steps, size_t at_step) {
     const Step& step = steps[at_step];
     switch (step.op) {
@@ -52,7 +54,8 @@ Task<size_t> Run::gather_step(const std::vector<Step>& steps, size_t at_step) {
     }
 }
 
-/// GatherElse.
+/// GatherElse. The lanes whose rays hit nothing; the block's live lanes decide who is left, so that a lane
+/// which has jumped out in the first half does not come back here.
 size_t Run::turn_to_misses(const Step& step, size_t at_step) {
     masks_.start_turn(gathers_.back()->misses());
     return masks_.none() ? step.target : at_step + 1;

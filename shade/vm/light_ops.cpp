@@ -7,7 +7,8 @@ namespace {
 
 using rsl::Op;
 
-/// Three planes of a light's.
+/// Three planes of a light's. Lights hand out const planes and kernels take operands, which are not: those of
+/// inputs are only read.
 Operand planes_of(const Run& run, const float* first) {
     Operand operand;
     operand.data = const_cast<float*>(first);  // an input
@@ -25,7 +26,9 @@ void clear(const Run& run, const Operand& out) {
 using AddLight = void (*)(const Run& run, Op op, std::span<const Operand> operands,
                           const Lights::Arriving& light);
 
-/// Sums over the lights that are ambient, or over those that are not.
+/// Sums over the lights that are ambient, or over those that are not. A light's own shader runs when it is
+/// first asked for at P; the suspended sum goes on with the next light when that is done. The order of the
+/// lights is the order of the sum, so that its rounding does not depend on threads.
 Task<> sum_lights(Run& run, const Step& step, std::span<const Operand> operands, bool ambient, AddLight add) {
     clear(run, operands[0]);
     Lights* lights = run.context().lights;
@@ -55,7 +58,8 @@ Task<> diffuse(Run& run, const Step& step, std::span<const Operand> operands) {
                       });
 }
 
-/// specular() and phong(): P, N, V and roughness or size.
+/// specular() and phong(): P, N, V and roughness or size. A light says with __nonspecular how much less it
+/// counts here.
 Task<> highlights(Run& run, const Step& step, std::span<const Operand> operands) {
     return sum_lights(run, step, operands, false,
                       [](const Run& r, Op op, std::span<const Operand> all, const Lights::Arriving& light) {

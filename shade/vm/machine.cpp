@@ -13,7 +13,9 @@ namespace trapeze::vm {
 
 using rsl::Op;
 
-/// What one run needs besides its registers, kept for the next at the same depth.
+/// What one run needs besides its registers, kept for the next at the same depth. Levels are owned by the
+/// machine and outlive their runs: masks and scratch of depth d are free again for any run that starts at
+/// that depth.
 struct Machine::Level {
     struct Free {
         void operator()(float* p) const { std::free(p); }
@@ -46,6 +48,7 @@ Task<> Machine::run_initial(Registers& registers, size_t parameter, const Contex
 
 namespace {
 
+/// Levels are held by pointer, so that a run keeps its reference while runs inside it add more of them.
 Machine::Level& level_at(std::vector<std::unique_ptr<Machine::Level>>& levels, size_t depth) {
     while (levels.size() <= depth) levels.push_back(std::make_unique<Machine::Level>());
     return *levels[depth];
@@ -53,6 +56,8 @@ Machine::Level& level_at(std::vector<std::unique_ptr<Machine::Level>>& levels, s
 
 }  // namespace
 
+/// The depth counts runs that are open on this machine. Runs end in the reverse order of their beginning,
+/// since each is awaited by the one that started it, so that a counter is enough.
 Run::Run(Machine& machine, Registers& registers, const Context& context)
     : machine_(machine),
       registers_(registers),
@@ -84,10 +89,14 @@ float* Run::scratch(size_t planes) {
     return level_.scratch[scratch_used_++].get();
 }
 
+/// The place is that of the step in the shader's source; the kind makes the message appear once however many
+/// grids run into it.
 void Run::warn(const Step& step, std::string text, std::string kind) {
     if (context_.diagnostics) context_.diagnostics->warning(step.at, std::move(text), std::move(kind));
 }
 
+/// Only the steps that may wait are awaited; all between them run in one plain function, which spares most
+/// programs the cost of a coroutine for each step.
 Task<> Run::run(const std::vector<Step>& steps) {
     for (size_t at = 0; (at = run_to_wait(steps, at)) < steps.size();) {
         if (steps[at].waiting_op) {
@@ -134,7 +143,8 @@ Run::Way Run::way_of(const Step& step) const {
     return step.through_scratch ? Way::ThroughScratch : Way::InPlace;
 }
 
-/// Computes into other planes, of which lanes that run are copied (take_back()).
+/// Computes into other planes, of which lanes that run are copied (take_back()). Operations know nothing of
+/// masks: they set all lanes, and what lanes that do not run had before is kept by copying the others back.
 class Run::Redirected {
   public:
     Redirected(Run& run, const Step& step, std::span<const Operand> operands) : all_(in_place_) {
@@ -165,6 +175,7 @@ class Run::Redirected {
     std::span<Operand> all_;
 };
 
+/// A text among the outputs has no planes: the operation has set it in place.
 void Run::take_back(const Step& step, const Redirected& redirected) {
     const std::span<const Operand> outputs = registers_.operands_of(step);
     for (size_t k = 0; k < step.outputs; ++k)
@@ -172,6 +183,7 @@ void Run::take_back(const Step& step, const Redirected& redirected) {
             copy_running(step.masked && !masks_.all(), redirected.operands()[k].data, planes, outputs[k]);
 }
 
+/// Steps whose operands are all uniform run over one group of kLanes lanes, whatever the batch's size.
 void Run::plain(const Step& step) {
     scratch_used_ = 0;
     const Way way = way_of(step);

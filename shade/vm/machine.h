@@ -16,7 +16,7 @@ namespace trapeze::vm {
 /// A thread's memory: registers of the programs it runs, and scratch planes. One run may start another (a
 /// surface its lights); each has masks and scratch of its own. All of it is kept from run to run, since a
 /// picture runs a few programs over very many grids of much the same size: nothing is allocated in a run once
-/// it has reached its largest one.
+/// it has reached its largest one. It is not thread-safe: each shading thread has its own.
 class Machine {
   public:
     Machine();
@@ -28,7 +28,8 @@ class Machine {
     /// What the runs at one depth of nesting need besides their registers.
     struct Level;
 
-    /// Runs the program's code. The registers have been started, and its parameters and variables set.
+    /// Runs the program's code. The registers have been started, and its parameters and variables set. The
+    /// context must live until the task is done.
     Task<> run(Registers& registers, const Context& context);
     /// Computes a parameter's default.
     Task<> run_initial(Registers& registers, size_t parameter, const Context& context);
@@ -99,7 +100,8 @@ class Run {
     /// Does a step of control (control.cpp); returns where to go on. `at` is the step's index in `steps`.
     size_t control(const std::vector<Step>& steps, size_t at);
     Task<size_t> waiting_control(const std::vector<Step>& steps, size_t at);
-    /// How a step that is no control is done.
+    /// How a step that is no control is done. The choice is made anew for each step, by the masks as they are
+    /// then.
     enum class Way : uint8_t { NotAtAll, InPlace, ThroughScratch };
     Way way_of(const Step& step) const;
     void plain(const Step& step);

@@ -8,11 +8,14 @@ namespace {
 
 using rsl::Op;
 
+/// Results of three planes or of one: a float's component stride is 0, so that all three turns of the loop
+/// write its one plane.
 void fill_with_black(Run& run, std::span<const Operand> operands) {
     for (size_t k = 0; k < 3; ++k)
         std::fill_n(operands[0].data + k * operands[0].stride, plane_size(run, operands[0]), 0.0f);
 }
 
+/// Op::Texture, Bump and TextureInfo are told apart behind the interface, by step.op.
 void look_up(Run& run, const Step& step, std::span<const Operand> operands) {
     if (run.context().maps)
         run.context().maps->look_up(run, step, operands);

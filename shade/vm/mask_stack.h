@@ -58,9 +58,10 @@ class MaskStack {
     void leave_scope();
 
   private:
+    /// A Scope is what `return` leaves: the body of a function, or the shader's.
     enum class Kind : uint8_t { If, Loop, Scope };
     /// A block that lanes are in: what it must know to wake them again.
-    struct Block {
+    struct EnteredBlock {
         Kind kind = Kind::If;
         uint32_t* before = nullptr;  ///< lanes that go on after it
         uint32_t* live = nullptr;    ///< of a loop: lanes that have not left it
@@ -69,7 +70,7 @@ class MaskStack {
     /// A plane for the masks of one block, from those given back or a new one; its contents are undefined.
     uint32_t* take();
     void give_back(uint32_t* plane) { free_.push_back(plane); }
-    Block& push(Kind kind);
+    EnteredBlock& push(Kind kind);
     /// Clears the lanes that run now in another mask.
     void take_off(uint32_t* plane) const;
     void copy(const uint32_t* from, uint32_t* to) const;
@@ -82,7 +83,7 @@ class MaskStack {
     size_t lanes_ = 0, capacity_ = 0;
     uint32_t* current_ = nullptr;
     State state_ = State::All;
-    std::vector<Block> blocks_;
+    std::vector<EnteredBlock> blocks_;
     std::vector<std::unique_ptr<uint32_t, Free>> planes_;
     std::vector<uint32_t*> free_;
 };

@@ -6,7 +6,8 @@ namespace {
 
 using rsl::Op;
 
-/// Outputs: found (1 or 0), the value, which is kept when there is none; input: the name.
+/// Outputs: found (1 or 0), the value, which is kept when there is none; input: the name. A text is uniform
+/// and a register of its own; the planes of operand 1 are then not used.
 void ask(Run& run, const Step& step, std::span<const Operand> operands) {
     Registers& registers = run.registers();
     const rsl::RegisterId value = registers.register_of(step, 1);

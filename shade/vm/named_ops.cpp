@@ -27,6 +27,8 @@ void space_matrix(Run& run, const Step& step, std::span<const Operand> operands)
 }
 
 /// ctransform(), and casts of colours from a space. Operand 0 is the result, 1 and 2 the names, 3 the colour.
+/// Names are texts, uniform in a run, so one kernel serves all lanes; which is known only here, as they may
+/// be computed.
 void convert_color(Run& run, const Step& step, std::span<const Operand> operands) {
     const std::string &from = run.registers().text_input(step, 0), &to = run.registers().text_input(step, 1);
     Kernel kernel = find_color_conversion(from, to);
@@ -41,7 +43,8 @@ void convert_color(Run& run, const Step& step, std::span<const Operand> operands
     kernel(step.varying ? run.lanes() : kLanes, both);
 }
 
-/// spline() with a basis; without one it is a kernel.
+/// spline() with a basis; without one it is a kernel. The kernel has no operand for the name, so the list is
+/// passed on without it.
 void spline(Run& run, const Step& step, std::span<const Operand> operands) {
     const std::string& name = run.registers().text_input(step, 0);
     std::optional<SplineBasis> basis = spline_basis(name);

@@ -15,11 +15,13 @@ GridSpans spans_of(const Run& run) {
     return batch ? GridSpans(batch->spans) : GridSpans();
 }
 
+/// 1 or 3: the kernels of differences take the width as an argument, and not from their operands.
 int width_of_output(Run& run, const Step& step) {
     return rsl::width_of(run.registers().reg(run.registers().register_of(step, 0)).type.base);
 }
 
-/// What is the same at all vertices does not change from one to the next.
+/// What is the same at all vertices does not change from one to the next. A uniform output says that all
+/// inputs are uniform (infer_storage.h), and then the output, zero, is filled in here.
 bool is_flat(Run& run, const Step& step, std::span<const Operand> operands) {
     if (operands[0].lane_mask) return false;
     const std::array<float, 3> zeros{};
@@ -55,7 +57,8 @@ void normals(Run& run, const Step& step, std::span<const Operand> operands) {
         calculate_normals(spans_of(run), run.lanes(), operands[1], operands[0]);
 }
 
-/// How far x changes over a vertex' footprint, as headers' filterwidth() has it: by du and dv.
+/// How far x changes over a vertex' footprint, as headers' filterwidth() has it: by du and dv. Without
+/// footprints, as for shaders that are run alone, the differences to neighbouring vertices stand for it.
 void filter_width(Run& run, const Operand& x, const Operand& out) {
     if (!run.context().footprints) return filter_widths(spans_of(run), run.lanes(), x, out);
     const Footprint& f = run.context().footprints->get();
@@ -66,7 +69,8 @@ void filter_width(Run& run, const Operand& x, const Operand& out) {
         out.data[i] = std::abs(out.data[i] * f.du[i]) + std::abs(by_v[i] * f.dv[i]);
 }
 
-/// edge, x [, x2] [, name, value, ...]; of the named ones, "width" counts.
+/// edge, x [, x2] [, name, value, ...]; of the named ones, "width" counts. A uniform x has no width: the step
+/// is then a sharp one, as step() has it.
 void filtered_step(Run& run, const Step& step, std::span<const Operand> operands) {
     const auto is_text = [&](size_t i) {
         return run.registers().reg(run.registers().register_of(step, i)).type.base == rsl::Base::String;
@@ -89,7 +93,8 @@ void filtered_step(Run& run, const Step& step, std::span<const Operand> operands
     filter_step(lanes, operands[1], operands[2], widths, scale, operands[0]);
 }
 
-/// depth(P): 0 at the near clipping plane, 1 at the far one.
+/// depth(P): 0 at the near clipping plane, 1 at the far one. RISpec's depth() takes a point in "current"
+/// space, whose z is the distance along the view and not along the ray.
 void depth(Run& run, const Step&, std::span<const Operand> operands) {
     const float near_clip = run.context().near_clip, far_clip = run.context().far_clip;
     const Operand &out = operands[0], &P = operands[1];

@@ -13,7 +13,8 @@ using rsl::Blocks;
 using rsl::Register;
 
 /// The instructions during which a register's value is needed: from the first that names it to the last, both
-/// included.
+/// included. A register that no instruction of the code names has first = kNone and gets no planes, unless
+/// others read it after the run.
 struct Lifetime {
     size_t first = Blocks::kNone, last = 0;
     uint32_t id = 0;
@@ -59,6 +60,7 @@ std::vector<bool> used_by_defaults(const rsl::Program& program) {
 
 }  // namespace
 
+/// One plane for each component of each element; width_of() is 0 for texts, which have none.
 uint32_t plane_count(const rsl::Type& type) {
     return static_cast<uint32_t>(rsl::width_of(type.base) * std::max(type.length, 1));
 }

@@ -8,7 +8,7 @@ namespace {
 
 /// A vertex' number is hashed from its grid's seed, its place in the grid, and the call's number in the
 /// program (Step::immediate). None of them depends on which thread shades the grid or which grids share a
-/// batch.
+/// batch. Lanes behind the last vertex get the seed 0; nobody reads what comes of it.
 void random(Run& run, const Step& step, std::span<const Operand> operands) {
     float* seeds = run.scratch(1);
     std::memset(seeds, 0, run.lanes() * sizeof(float));

@@ -11,7 +11,9 @@ namespace {
 
 using rsl::Op;
 
-/// What all rays find where there is nothing: black, no distance, nothing in the way.
+/// What all rays find where there is nothing: black, no distance, nothing in the way. As a float, trace() is
+/// the distance to what is hit, and 1e30 says that nothing is; transmission() and visibility() are how much
+/// gets through, and so 1.
 void miss(Run& run, const Step& step, std::span<const Operand> operands) {
     const bool open = step.op == Op::Transmission || step.op == Op::Visibility;
     const int width = operands[0].stride ? 3 : 1;
@@ -20,6 +22,8 @@ void miss(Run& run, const Step& step, std::span<const Operand> operands) {
     fill_operand(run, operands[0], std::span(values).first(static_cast<size_t>(width)));
 }
 
+/// Trace, Transmission, Visibility, and what look_over_sky() leaves over; shade/rays tells them apart by
+/// step.op.
 Task<> trace(Run& run, const Step& step, std::span<const Operand> operands) {
     if (run.context().rays)
         co_await run.context().rays->trace(run, step, operands);
@@ -33,6 +37,7 @@ Task<> look_over_sky(Run& run, const Step& step, std::span<const Operand> operan
     if (!clouds || !clouds->over_discs(run, step, operands)) co_await trace(run, step, operands);
 }
 
+/// Without a scene all points are those that the camera sees: depth 0, type "camera".
 RayFacts facts_of(const Run& run) {
     return run.context().rays ? run.context().rays->facts() : RayFacts();
 }
@@ -88,6 +93,7 @@ void ray_info(Run& run, const Step& step, std::span<const Operand> operands) {
     fill_operand(run, operands[0], std::array{known ? 1.0f : 0.0f});
 }
 
+/// Both raylevel() and raydepth(): the bounces from the camera.
 void ray_level(Run& run, const Step&, std::span<const Operand> operands) {
     fill_operand(run, operands[0], std::array{static_cast<float>(facts_of(run).depth)});
 }

@@ -13,7 +13,9 @@ void Registers::Free::operator()(float* p) const {
 }
 
 /// Operands are made anew only where the number of lanes changes. One block of memory holds all planes: the
-/// uniform ones first, kLanes floats each, then the varying ones, `lanes` floats each.
+/// uniform ones first, kLanes floats each, then the varying ones, `lanes` floats each. Memory only grows.
+/// When fewer lanes are asked for, planes move closer together in the same block and hold what other planes
+/// left there, which is why contents count as undefined.
 void Registers::start(size_t lanes) {
     if (executable_->text_count()) texts_ = executable_->texts();
     if (lanes == lanes_) return;
@@ -51,7 +53,8 @@ void Registers::start(size_t lanes) {
     for (const rsl::RegisterId id : executable_->operands()) operands_.push_back(by_id_[id]);
 }
 
-/// An element of an array is chosen by its number; 0 for what is no array.
+/// An element of an array is chosen by its number; 0 for what is no array. A varying register gets the value
+/// in all lanes, a uniform one in its one group of lanes, from which kernels load as from any plane.
 void Registers::set_uniform(rsl::RegisterId id, const float* values, size_t element) {
     const Operand& operand = by_id_[id];
     const int width = rsl::width_of(reg(id).type.base);

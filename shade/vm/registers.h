@@ -13,6 +13,8 @@
 
 namespace trapeze::vm {
 
+/// The executable is shared and held by pointer, so that a material may drop it while registers of a thread
+/// are still there.
 class Registers {
   public:
     explicit Registers(std::shared_ptr<const Executable> executable) : executable_(std::move(executable)) {}

@@ -13,6 +13,7 @@ using rsl::Register;
 }  // namespace
 
 /// Parameters are looked at in their order, since a default may name parameters before it and no others.
+/// Others are computed once for a material, when it is bound.
 std::vector<bool> has_run_default(const rsl::Program& program) {
     std::vector<bool> found;
     std::vector<bool> known_late(program.registers.size(), false);
@@ -31,6 +32,8 @@ std::vector<bool> has_run_default(const rsl::Program& program) {
     return found;
 }
 
+/// "object" is the one space of which each primitive has its own though they share a material; all others are
+/// known when parameters are set.
 bool may_ask_object_space(const rsl::Program& program, const rsl::Code& code) {
     return std::ranges::any_of(code, [&](const rsl::Instruction& instruction) {
         if (instruction.op != Op::SpaceMatrix) return false;

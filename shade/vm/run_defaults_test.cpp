@@ -5,8 +5,15 @@
 #include "shade/materials/shader_folder_harness.h"
 #include "shade/vm/run_shader_harness.h"
 
-namespace trapeze::vm::testing {
+namespace trapeze::vm {
 namespace {
+
+using testing::color;
+using testing::expect_near_triple;
+using testing::shader;
+using testing::ShaderFolder;
+using testing::ShaderRun;
+using testing::ShadingScene;
 
 TEST(RunDefaults, FollowThePoint) {
     for (const bool optimised : {false, true}) {
@@ -46,16 +53,16 @@ TEST(RunDefaults, AUniformParameterBecomesVarying) {
 }
 
 /// A scene that finds its shaders in a folder.
-struct Scene {
-    TestScene test;
+struct FolderScene {
+    ShadingScene test;
     ShaderFolder folder;
 
-    Scene() { test.scene.options.search_paths["shader"] = {folder.path()}; }
+    FolderScene() { test.scene.options.search_paths["shader"] = {folder.path()}; }
     void write(const std::string& name, const std::string& source) { folder.write(name, source); }
 };
 
 TEST(RunDefaults, ValuesOfTheInstanceAndPrimitiveVariablesReplaceThem) {
-    Scene scene;
+    FolderScene scene;
     scene.write("show", "surface show(varying color c = Cs; varying float f = s;) { Ci = c + f; Oi = 1; }");
     scene.test.surface("show", {color("c", V3f(1, 2, 3))});
     scene.test.declare("f", {StorageClass::Varying, ValueType::Float, 1});
@@ -69,7 +76,7 @@ TEST(RunDefaults, ValuesOfTheInstanceAndPrimitiveVariablesReplaceThem) {
 }
 
 TEST(RunDefaults, OfDisplacementsAndOfSurfacesBehindThem) {
-    Scene scene;
+    FolderScene scene;
     scene.test.attributes->displacement_bound = 10;
     scene.write("move", "displacement move(varying point to = P + N * s;) { P = to; }");
     scene.write("show", "surface show(varying point at = P;) { Ci = color(at); Oi = 1; }");
@@ -77,13 +84,13 @@ TEST(RunDefaults, OfDisplacementsAndOfSurfacesBehindThem) {
     scene.test.surface("show");
     const ShadingGrid before = scene.test.grid(), grid = scene.test.shaded(before);
     for (size_t i = 0; i < grid.vertex_count(); ++i) {
-        expect_near(grid.P[0].at(i), before.P[0].at(i) + V3f(0, 0, -before.s[i]), 1e-6f);
+        expect_near_triple(grid.P[0].at(i), before.P[0].at(i) + V3f(0, 0, -before.s[i]), 1e-6f);
         EXPECT_EQ(grid.Ci.at(i), grid.P[0].at(i));
     }
 }
 
 TEST(RunDefaults, OfLightsAndAtmospheres) {
-    Scene scene;
+    FolderScene scene;
     scene.write("lamp", "light lamp(varying float x = xcomp(Ps);) { Cl = x; }");
     scene.write("air", "volume air(varying float away = length(I);) { Ci += away; }");
     scene.write("show", "surface show() { Ci = ambient(); Oi = 1; }");
@@ -97,7 +104,7 @@ TEST(RunDefaults, OfLightsAndAtmospheres) {
 }
 
 TEST(RunDefaults, OfImagers) {
-    Scene scene;
+    FolderScene scene;
     scene.write("show", "imager show(varying float x = xcomp(P);) { Ci = x; }");
     scene.test.scene.options.imager = std::make_shared<ShaderInstance>(shader("show"));
     const Imager imager(scene.test.context);
@@ -107,7 +114,7 @@ TEST(RunDefaults, OfImagers) {
 }
 
 TEST(RunDefaults, ConnectedParametersTakeTheConnection) {
-    Scene scene;
+    FolderScene scene;
     scene.write("first", "surface first(output varying float out = 0;) { out = 2 * t; }");
     scene.write("last", "surface last(varying float in = s;) { Ci = in; Oi = 1; }");
     const auto first = std::make_shared<ShaderInstance>(shader("first"));
@@ -121,4 +128,4 @@ TEST(RunDefaults, ConnectedParametersTakeTheConnection) {
 }
 
 }  // namespace
-}  // namespace trapeze::vm::testing
+}  // namespace trapeze::vm

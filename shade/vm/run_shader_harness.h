@@ -12,22 +12,22 @@
 #include "shade/shading_harness.h"
 #include "shade/vm/compile_shader.h"
 
-namespace trapeze::vm::testing {
+namespace trapeze::testing {
 
 class ShaderRun {
   public:
     explicit ShaderRun(const std::string& source, bool optimised = true, int nu = 3, int nv = 2)
         : grid_(scene_.grid(nu, nv)) {
         const auto optimiser = optimised ? rsl::OptimiseOptions() : rsl::OptimiseOptions::none();
-        executable_ = compile_shader({"test.sl", source}, {}, scene_.diagnostics, optimiser);
+        executable_ = vm::compile_shader({"test.sl", source}, {}, scene_.diagnostics, optimiser);
         if (!executable_) ADD_FAILURE() << messages() << source;
     }
 
     ShadingGrid& grid() { return grid_; }
-    TestScene& scene() { return scene_; }
+    ShadingScene& scene() { return scene_; }
 
     /// Runs it, with what is in `context` besides points.
-    void run(Context context = {}) {
+    void run(vm::Context context = {}) {
         if (!executable_) return;
         const SceneSpaces spaces(scene_.scene, scene_.context.camera, &instance_,
                                  &scene_.scene.primitives[0]);
@@ -50,15 +50,15 @@ class ShaderRun {
     size_t vertices() const { return grid_.vertex_count(); }
     /// An output parameter's component at a vertex.
     float at(const std::string& name, size_t vertex, int component = 0, size_t element = 0) const {
-        const Operand& operand = registers_->operand(id(name));
+        const vm::Operand& operand = registers_->operand(id(name));
         return operand.data[element * operand.element_stride +
                             static_cast<size_t>(component) * operand.stride + (vertex & operand.lane_mask)];
     }
     const std::string& text(const std::string& name) const { return registers_->text(id(name)); }
     bool is_varying(const std::string& name) const { return registers_->reg(id(name)).varying; }
     const rsl::Program& program() const { return executable_->program(); }
-    Machine& machine() { return machine_; }
-    Registers& registers() { return *registers_; }
+    vm::Machine& machine() { return machine_; }
+    vm::Registers& registers() { return *registers_; }
     std::string messages() const {
         std::string all;
         for (const Diagnostic& d : scene_.reported) all += to_string(d) + "\n";
@@ -73,13 +73,13 @@ class ShaderRun {
         return 0;
     }
 
-    TestScene scene_;
+    ShadingScene scene_;
     ShaderInstance instance_;
     ShadingGrid grid_;
-    std::shared_ptr<const Executable> executable_;
-    Batch batch_;
-    Machine machine_;
-    Registers* registers_ = nullptr;
+    std::shared_ptr<const vm::Executable> executable_;
+    vm::Batch batch_;
+    vm::Machine machine_;
+    vm::Registers* registers_ = nullptr;
 };
 
 /// Runs `body` in a surface with output parameter `float r`, with and without the optimiser, and hands the
@@ -97,4 +97,4 @@ void expect_values(const std::string& body, const Expected& expected, float tole
     }
 }
 
-}  // namespace trapeze::vm::testing
+}  // namespace trapeze::testing

@@ -41,7 +41,7 @@ Predefined predefined(std::string_view name) {
     return row != std::end(kNames) ? row->second : Predefined::Other;
 }
 
-/// Whether a register is among the inputs.
+/// Whether a register is among the inputs. Operands hold the outputs first, then the inputs.
 bool reads(const rsl::Instruction& instruction, rsl::RegisterId id) {
     const auto inputs = instruction.operands.begin() + instruction.outputs;
     return std::find(inputs, instruction.operands.end(), id) != instruction.operands.end();
@@ -54,7 +54,9 @@ bool defaults_read(const rsl::Program& program, rsl::RegisterId id) {
     });
 }
 
-/// Whether what comes first of the two is a look, or a write that may leave lanes as they are.
+/// Whether what comes first of the two is a look, or a write that may leave lanes as they are. A conservative
+/// look along the code, without following jumps: the first instruction that names the register decides, and a
+/// write counts only if it stands in no block, so that it certainly runs, and for all lanes.
 bool is_needed(const rsl::Code& code, rsl::RegisterId id) {
     for (const rsl::Instruction& instruction : code) {
         const auto inputs = instruction.operands.begin() + instruction.outputs;
@@ -70,6 +72,7 @@ bool is_needed(const rsl::Code& code, rsl::RegisterId id) {
 
 }  // namespace
 
+/// Globals that nothing reads are listed too, and marked: whoever sets up a run need not fill them.
 std::vector<StartValue> start_values(const rsl::Program& program) {
     std::vector<StartValue> values;
     for (const rsl::RegisterId id : program.globals)

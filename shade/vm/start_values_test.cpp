@@ -3,8 +3,10 @@
 
 #include "shade/vm/run_shader_harness.h"
 
-namespace trapeze::vm::testing {
+namespace trapeze::vm {
 namespace {
+
+using testing::ShaderRun;
 
 /// Of Ci, in a surface with this body, with and without the optimiser.
 void expect_needed(const std::string& body, bool needed) {
@@ -65,4 +67,4 @@ TEST(StartValues, KnowEveryNameOfTheTables) {
 }
 
 }  // namespace
-}  // namespace trapeze::vm::testing
+}  // namespace trapeze::vm

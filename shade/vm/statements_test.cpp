@@ -4,8 +4,11 @@
 
 #include "shade/vm/run_shader_harness.h"
 
-namespace trapeze::vm::testing {
+namespace trapeze::vm {
 namespace {
+
+using testing::expect_values;
+using testing::ShaderRun;
 
 TEST(Statements, IfByLaneAndWhole) {
     expect_values("if (s > 0.5) r = 1; else r = 2;", [](float s, float) { return s > 0.5f ? 1 : 2; });
@@ -285,4 +288,4 @@ TEST(Statements, WhatIsUniformIsFound) {
 }
 
 }  // namespace
-}  // namespace trapeze::vm::testing
+}  // namespace trapeze::vm

@@ -29,6 +29,8 @@ size_t read_number(std::string_view format, size_t at, std::string& out) {
     return at;
 }
 
+/// C's conversion in a shader's text is untrusted input to snprintf(): flags are cut to a few characters, `*`
+/// and length modifiers are not taken, and the letter is replaced by number_text().
 size_t read_field(std::string_view format, size_t at, Field& field) {
     while (at < format.size() && std::string_view("+- #0").find(format[at]) != std::string_view::npos) {
         if (field.prefix.size() < 8) field.prefix += format[at];
@@ -43,7 +45,9 @@ size_t read_field(std::string_view format, size_t at, Field& field) {
     return at;
 }
 
-/// %d of a float is its whole part; what is too large for that, and NaN, is written as a float.
+/// %d of a float is its whole part; what is too large for that, and NaN, is written as a float. The prefix
+/// holds flags, width and precision as the shader wrote them, both bounded when it was read, so that the
+/// buffer is large enough.
 std::string number_text(const Field& field, float value) {
     char buffer[kMaxFieldWidth * 2 + 64];
     const bool whole = field.letter == 'd' || field.letter == 'i';
@@ -92,6 +96,7 @@ std::string format_text(std::string_view format, std::span<const TextValue> valu
     return out;
 }
 
+/// Nothing throws out of it: bad patterns are the shader's mistake and the picture goes on.
 bool matches(std::string_view pattern, std::string_view subject) {
     if (pattern.size() > kMaxPattern) return false;
     subject = subject.substr(0, kMaxSubject);

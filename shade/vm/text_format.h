@@ -23,6 +23,8 @@ std::string format_text(std::string_view format, std::span<const TextValue> valu
 /// Whether a part of the subject matches the pattern (POSIX extended regular expressions). Bad patterns, and
 /// such as are longer than kMaxPattern, match nothing; of a subject the first kMaxSubject characters count.
 inline constexpr size_t kMaxPattern = 256, kMaxSubject = 1024;
+
+/// A pattern that is wrong, or too long, matches nothing.
 bool matches(std::string_view pattern, std::string_view subject);
 
 }  // namespace trapeze::vm

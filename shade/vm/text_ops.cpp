@@ -20,10 +20,14 @@ size_t element_of(Run& run, const Step& step, size_t index_operand, int length) 
     return static_cast<size_t>(index > 0 ? std::min(std::floor(index), last) : 0);
 }
 
+/// Texts are strings of Registers and not planes: these functions find them by register and use none of the
+/// operands' data.
 void move_text(Run& run, const Step& step, std::span<const Operand>) {
     run.registers().text(run.registers().register_of(step, 0)) = run.registers().text_input(step, 0);
 }
 
+/// Copies one string out of an array of them; a step's operands name the array, and its elements stand one
+/// after the other from the array's place on.
 void text_element(Run& run, const Step& step, std::span<const Operand>) {
     Registers& registers = run.registers();
     const rsl::RegisterId array = registers.register_of(step, 1);
@@ -31,6 +35,8 @@ void text_element(Run& run, const Step& step, std::span<const Operand>) {
         registers.text(array, element_of(run, step, 2, registers.reg(array).type.length));
 }
 
+/// The index is held within the array, as for numbers: an element outside is none, and a shader must not end
+/// the render.
 void set_text_element(Run& run, const Step& step, std::span<const Operand>) {
     Registers& registers = run.registers();
     const rsl::RegisterId array = registers.register_of(step, 0);
@@ -51,6 +57,7 @@ void equal_texts(Run& run, const Step& step, std::span<const Operand> operands) 
     fill_bool(run, operands[0], equal == (step.op == Op::Equal));
 }
 
+/// Texts are uniform in the language, so one result serves all lanes.
 void concat(Run& run, const Step& step, std::span<const Operand>) {
     constexpr size_t kMaxText = 1 << 16;  // a loop must not grow it without end
     std::string joined;
@@ -59,7 +66,8 @@ void concat(Run& run, const Step& step, std::span<const Operand>) {
     run.registers().text(run.registers().register_of(step, 0)) = std::move(joined);
 }
 
-/// The arguments behind a format, as they are in one lane.
+/// The arguments behind a format, as they are in one lane. The views of strings point into the registers:
+/// they are good until a text of the step is set.
 std::vector<TextValue> values_at(Run& run, const Step& step, std::span<const Operand> operands, size_t lane) {
     Registers& registers = run.registers();
     std::vector<TextValue> values;

@@ -22,6 +22,7 @@ float blur_of(std::span<const V3f> keys, const Attributes& attributes, const Cam
 
 }  // namespace
 
+/// Some faces, their corners and their middles stand for all: a factor is a wish and no bound.
 float blur_factor(const PlacedSurface& surface, const Camera& camera, const ScreenMetric& metric) {
     const Attributes& attributes = *surface.primitive().attributes;
     const int faces = surface.surface().face_count(), keys = surface.key_count();

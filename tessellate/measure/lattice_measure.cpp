@@ -17,7 +17,8 @@ namespace HWY_NAMESPACE {
 using F = hn::CappedTag<float, FaceLattices::kFaces>;
 using Lanes = hn::Vec<F>;
 
-/// Points of as many faces as there are lanes, in camera space, and in units of the image plane.
+/// Points of as many faces as there are lanes, in camera space, and in units of the image plane. Rows and
+/// columns that the lattice does not have hold nothing.
 struct Projected {
     HWY_ALIGN float x[FaceLattices::kFaces], y[FaceLattices::kFaces], z[FaceLattices::kFaces];
     HWY_ALIGN float image_x[FaceLattices::kFaces], image_y[FaceLattices::kFaces];
@@ -88,6 +89,8 @@ HWY_INLINE void add_up(const ProjectedLattice& lattice, const PieceLengths& leng
     line.pieces = pieces;
 }
 
+/// The order of operations is that of ScreenMetric::perspective_length() and LineMeasure::of(): estimates
+/// must not depend on whether a face was measured alone.
 void measure_lanes(const FaceLattices& lattices, const M44f& camera_from_object, const ScreenMetric& metric,
                    float least_foreshortening, LatticeLines& lines) {
     const F d;

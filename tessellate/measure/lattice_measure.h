@@ -14,7 +14,8 @@ struct LatticeLine {
     RateEstimate of(int face) const { return {sum[face], longest[face], pieces, false}; }
 };
 
-/// Lines along u (axis 0) and v (1), from the lowest on.
+/// Lines along u (axis 0) and v (1), from the lowest on. Those of two pieces and of four are what a face's
+/// interior is measured by, those of four and of eight its sides.
 struct LatticeLines {
     LatticeLine two[2][3];   ///< of two pieces
     LatticeLine four[2][5];  ///< of four

@@ -41,6 +41,7 @@ bool is_deep(std::span<const V3f> P) {
 
 }  // namespace
 
+/// Uneven: uniform segments as fine as the longest piece wants would be half as many again as are needed.
 bool RateEstimate::wants_split(float pixels_per_segment) const {
     if (deep) return true;
     const float even = sum / pixels_per_segment;
@@ -54,6 +55,7 @@ int RateEstimate::clamped_segments(const EdgeRate& rate) const {
     return rate.binary ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(wanted))) : wanted;
 }
 
+/// The lens and the flatness are taken once: the measure is asked for every line of the primitive.
 LineMeasure::LineMeasure(const ScreenMetric& metric, const Camera& camera, const PlacedSurface& surface,
                          bool displaced, float pixels_per_segment, bool from_all_sides)
     : metric_(metric),
@@ -104,6 +106,8 @@ float LineMeasure::slant(const V3f& p, const V3f& along, const V3f& across) cons
     return std::clamp(std::sqrt(sine / kSlantedSine), kLeast, 1.0f);
 }
 
+/// For each piece the most that any key, any point of the lens or the curve's bend wants of it, but not more
+/// than without foreshortening, nor less than what is seen at the first key.
 RateEstimate LineMeasure::foreshortened(std::span<const V3f> P, std::span<const V3f> beside) const {
     const size_t points = P.size() / static_cast<size_t>(keys_), pieces = points - 1;
     std::array<float, kMostPieces> seen{}, least{}, most{};

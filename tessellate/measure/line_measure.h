@@ -19,7 +19,8 @@
 
 namespace trapeze {
 
-/// How finely edges are cut: pixels a segment, and bounds on absurd input.
+/// How finely edges are cut: pixels a segment, and bounds on absurd input. The same for all edges and faces
+/// of a primitive, or neighbours would not agree.
 struct EdgeRate {
     float pixels_per_segment = 1;
     int max_depth = 14;
@@ -71,6 +72,7 @@ class LineMeasure {
 
     /// Whether of(P) alone decides, and of(lattices) has the same for many faces.
     bool measures_lattices() const { return keys_ == 0 && metric_.is_perspective(); }
+    /// Lines of many faces at once, where measures_lattices().
     void of(const FaceLattices& lattices, const M44f& camera_from_object, LatticeLines& lines) const;
 
     /// Whether a line of this estimate may want fewer segments: by foreshortened().

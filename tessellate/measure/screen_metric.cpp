@@ -33,6 +33,7 @@ float nearest_to_origin(const V& p, const V& d) {
 
 }  // namespace
 
+/// Lengths are taken from the image plane's scales, so that pixels which are not square count as they are.
 ScreenMetric::ScreenMetric(const Camera& camera)
     : perspective_(camera.perspective),
       pixels_x_(std::abs(1 / camera.plane_scale_x)),
@@ -48,6 +49,8 @@ ScreenMetric::ScreenMetric(const Camera& camera)
     radius_ = portable::hypot(x1 - x0, y1 - y0) / 2;
 }
 
+/// Where both ends are in view, the length on the raster. Elsewhere the angle at the eye times what an angle
+/// is worth at the picture's corner, which joins on without a step there and stays finite behind the eye.
 PixelLength ScreenMetric::perspective_length(const V3f& p, const V3f& q) const {
     const V3f d = q - p;
     // A point is in view when the cosine of its angle to the axis is at least the corner's.
@@ -68,6 +71,7 @@ PixelLength ScreenMetric::perspective_length(const V3f& p, const V3f& q) const {
     return {angle / view_cosine_ * scale, square_on * scale, false};
 }
 
+/// What lies in view is computed in lanes, all of it; the few pieces that do not are done again one by one.
 void ScreenMetric::perspective_lengths(std::span<const V3f> from, std::span<const V3f> to,
                                        std::span<PixelLength> lengths) const {
     const PointLanes p(from), q(to);
@@ -103,6 +107,8 @@ void ScreenMetric::of(std::span<const V3f> from, std::span<const V3f> to,
     }
 }
 
+/// Far beside the window lengths shrink with the distance from it, so that a large plane does not cost by its
+/// size.
 PixelLength ScreenMetric::orthographic_length(const V3f& p, const V3f& q) const {
     const V3f d = q - p;
     const V2f from_center = V2f(p.x, p.y) - center_, across(d.x, d.y);

@@ -63,6 +63,8 @@ void restrict_line(Control* p, int stride, int degree, float lo, float hi) {
 
 }  // namespace
 
+/// Along u in each row, then along v: in this order for all, so that patches which share a border row round
+/// alike on it.
 Control BezierPatch::at(V2f uv) const {
     const Weights u = weights(degree, uv.x), v = weights(degree, uv.y);
     Control sum{};
@@ -74,6 +76,7 @@ Control BezierPatch::at(V2f uv) const {
     return sum;
 }
 
+/// As at(), with combine() in place of plain sums, which is what keeps equal values equal.
 float BezierPatch::number_at(V2f uv) const {
     const Weights u = weights(degree, uv.x), v = weights(degree, uv.y);
     std::array<float, 4> rows{};
@@ -84,6 +87,7 @@ float BezierPatch::number_at(V2f uv) const {
     return combine(rows, degree, v, uv.y);
 }
 
+/// Row by row along u, then along v: the sums of each row serve the value and both derivatives.
 void BezierPatch::at(V2f uv, Control* value, Control* by_u, Control* by_v) const {
     const Weights u = weights(degree, uv.x), v = weights(degree, uv.y);
     *value = *by_u = *by_v = {};
@@ -99,6 +103,7 @@ void BezierPatch::at(V2f uv, Control* value, Control* by_u, Control* by_v) const
     }
 }
 
+/// The control points of the part, whose hull bounds it far more closely than that of the whole.
 BezierPatch BezierPatch::restricted(V2f lo, V2f hi) const {
     // Along u row by row, then along v column by column.
     BezierPatch part = *this;
@@ -122,6 +127,7 @@ BezierCurve BezierCurve::restricted(float lo, float hi) const {
     return part;
 }
 
+/// Rounded to 0 where a sum is but rounding, so that points which have no weight have none.
 M44f bezier_from_basis(const M44f& basis) {
     // The inverse of Bezier's basis; in double, so that Bezier's own comes out as the identity.
     constexpr double kInverse[4][4] = {
@@ -136,6 +142,8 @@ M44f bezier_from_basis(const M44f& basis) {
     return m;
 }
 
+/// True of Bezier, B-spline, Catmull-Rom and others at their own steps, whatever points they are given; false
+/// for a basis at another's step, where pieces may still meet by their points.
 bool pieces_join(const M44f& bezier_from_basis, int step) {
     constexpr float kNone = 1e-6f;
     // Bezier points 0 and 3 are where a piece begins and ends.
@@ -149,6 +157,8 @@ bool pieces_join(const M44f& bezier_from_basis, int step) {
     return true;
 }
 
+/// The matrix takes control points of the basis to those of Bezier's: the same curve, so that all later work
+/// knows one basis.
 void to_bezier(const M44f& bezier_from_basis, BezierCurve& curve) {
     const std::array<Control, 4> q = curve.p;
     for (int i = 0; i < 4; ++i) {
@@ -157,6 +167,7 @@ void to_bezier(const M44f& bezier_from_basis, BezierCurve& curve) {
     }
 }
 
+/// A basis that is Bezier's already is left alone, to the bit.
 void to_bezier(const M44f& u_bezier_from_basis, const M44f& v_bezier_from_basis, BezierPatch& patch) {
     const M44f identity;
     const auto convert = [&](const M44f& m, int along, int across) {
@@ -173,6 +184,8 @@ void to_bezier(const M44f& u_bezier_from_basis, const M44f& v_bezier_from_basis,
     convert(v_bezier_from_basis, 4, 1);
 }
 
+/// Written as differences from one of the control points: equal numbers stay equal to the bit, while plain
+/// weighted sums would be off by rounding.
 void numbers_to_bezier(const M44f& u_bezier_from_basis, const M44f& v_bezier_from_basis, BezierPatch& patch) {
     constexpr float kRounding = 1e-6f;
     const auto convert = [&](const M44f& m, int along, int across) {

@@ -8,7 +8,8 @@
 
 namespace trapeze {
 
-/// A control point: x y z w, or what components are used.
+/// A control point: x y z w, or what components are used. Numbers that are no points use the first components
+/// as they like.
 using Control = std::array<float, 4>;
 
 /// Its first three components.
@@ -16,7 +17,8 @@ inline V3f xyz(const Control& c) {
     return {c[0], c[1], c[2]};
 }
 
-/// A patch over (u, v) in [0,1]^2, of degree 1 or 3 along both; point (i, j) is p[j * 4 + i], i along u.
+/// A patch over (u, v) in [0,1]^2, of degree 1 or 3 along both; point (i, j) is p[j * 4 + i], i along u. A
+/// bilinear patch uses i and j of 0 and 1 alone, at the same places of the array.
 struct BezierPatch {
     int degree = 3;
     std::array<Control, 16> p{};

@@ -6,6 +6,8 @@
 #include "tessellate/topology/placed_surface.h"
 
 namespace trapeze {
+/// One length serves for all directions: the cube root of the determinant, which is exact for spaces that are
+/// scaled alike along all axes.
 CameraFacing::CameraFacing(const M44f& camera_from_object, const Camera* camera)
     : camera_from_object_(camera_from_object),
       object_from_camera_(M44f(M44d(camera_from_object).inverse())),
@@ -23,6 +25,8 @@ V3f CameraFacing::to_object(const V3f& camera_vector) const {
     return transform_vector(object_from_camera_, camera_vector);
 }
 
+/// The cross product is taken in camera space, where rays are straight lines through the eye, and its result
+/// taken back to object space, in which surfaces are evaluated.
 V3f CameraFacing::across(const V3f& point, const V3f& tangent) const {
     const V3f ray = perspective_ ? transform_point(camera_from_object_, point) : V3f(0, 0, 1);
     const V3f along = transform_vector(camera_from_object_, tangent);

@@ -6,7 +6,8 @@
 
 namespace trapeze {
 
-/// The camera as a primitive's object space sees it, at one motion key.
+/// The camera as a primitive's object space sees it, at one motion key. Curves and points have one for each
+/// motion key, since they face the camera anew at each.
 class CameraFacing {
   public:
     /// Without a camera: perspective from the origin.

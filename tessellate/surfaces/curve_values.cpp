@@ -5,12 +5,14 @@
 
 namespace trapeze {
 
+/// A view of the parameter's floats: nothing is copied until a segment asks.
 CurveVariable CurveVariable::of(const Parameter* parameter, int first_component, int count) {
     if (!parameter || parameter->is_string()) return {};
     return {parameter->floats.data() + first_component, parameter->declaration.storage,
             static_cast<size_t>(parameter->declaration.floats_per_item()), count};
 }
 
+/// t runs from 0 to 1 over the piece, and derivatives are by it.
 void CurvePiece::at(float t, Control* value, Control* by_t) const {
     if (cubic) return curve.at(t, value, by_t);
     // A line: its ends are the first two control points.
@@ -26,11 +28,13 @@ Control CurvePiece::at(float t) const {
     return value;
 }
 
+/// Mixing control points mixes the curves, as these are linear in them.
 void CurvePiece::mix(const CurvePiece& other, float share) {
     for (size_t i = 0; i < curve.p.size(); ++i)
         for (int k = 0; k < 4; ++k) curve.p[i][k] += (other.curve.p[i][k] - curve.p[i][k]) * share;
 }
 
+/// A line stays a line: its two ends move.
 CurvePiece CurvePiece::restricted(float lo, float hi) const {
     if (cubic) return {true, curve.restricted(lo, hi)};
     CurvePiece part;
@@ -43,6 +47,7 @@ CurvePieces::CurvePieces(const Curves& curves, const CurveTopology& topology)
     if (curves.cubic) bezier_from_basis_ = bezier_from_basis(curves.basis);
 }
 
+/// A class vertex value of a curve's point, as the file gave it and not in Bezier's basis.
 Control CurvePieces::control(const CurveVariable& variable, int curve, int point) const {
     // Control points of a periodic curve's last segments are its first again.
     const int wrapped = point % topology_.vertices_of(curve);
@@ -82,10 +87,13 @@ CurvePiece CurvePieces::piece(const CurveVariable& variable, int curve, int segm
     return piece;
 }
 
+/// Curves of lines always join: they share their control points.
 bool joins(const Curves& curves) {
     return !curves.cubic || pieces_join(bezier_from_basis(curves.basis), curves.step);
 }
 
+/// Weights are compared and not points, so that the answer is the same at all shape keys. Such curves may
+/// have several segments in one face, whose parameter then runs on evenly.
 bool joins_smoothly(const Curves& curves) {
     if (!curves.cubic) return false;
     const M44f& b = curves.basis;

@@ -17,7 +17,8 @@ constexpr int kSmoothSegmentsPerFace = 4;
 /// A line's joint grows no wider than so many times its width.
 constexpr float kMitreLimit = 2;
 
-/// What shapes the ribbons at one shape key.
+/// What shapes the ribbons at one shape key. Without a width the ribbon is 1 wide, without N it faces the
+/// camera.
 struct RibbonVariables {
     CurveVariable P, width, N;
 };
@@ -76,6 +77,8 @@ class CurvesSurface : public TopologySurface<CurvesSurface> {
     CurvePieces pieces_;
 };
 
+/// One frame for each key, as the ribbon turns to the camera at each; faces are runs of segments where these
+/// join smoothly.
 CurvesSurface::CurvesSurface(const Primitive& primitive, const Camera* camera,
                              std::vector<RibbonVariables> keys)
     : primitive_(primitive),
@@ -86,6 +89,7 @@ CurvesSurface::CurvesSurface(const Primitive& primitive, const Camera* camera,
     for (const M44f& m : matrices_at_keys(primitive, primitive.key_count())) facing_.emplace_back(m, camera);
 }
 
+/// A key of motion lies on a key of the shape or between two of them, which are mixed then.
 CurvePiece CurvesSurface::piece(CurveVariable RibbonVariables::*variable, int curve, int segment,
                                 int key) const {
     const ShapeMix mix = shape_mix(primitive_, key, primitive_.key_count());
@@ -135,6 +139,7 @@ V3f CurvesSurface::joint_span(const RibbonSegment& segment, int curve, int point
     return direction(segment, at, tangent, t, key) * (segment.width.at(t)[0] * mitre);
 }
 
+/// The way across the ribbon: with normals it lies across them, without it faces the camera.
 V3f CurvesSurface::direction(const RibbonSegment& segment, const V3f& at, const V3f& tangent, float t,
                              int key) const {
     if (keys_.front().N) {
@@ -145,6 +150,7 @@ V3f CurvesSurface::direction(const RibbonSegment& segment, const V3f& at, const 
     return facing_[key].across(at, tangent);
 }
 
+/// The ribbon's direction is constant along a step of the derivative: how it turns is left out of dPdv.
 RibbonRow CurvesSurface::across(const RibbonSegment& segment, float t, int key) const {
     Control p, by_t, width, width_by_t;
     segment.P.at(t, &p, &by_t);
@@ -170,6 +176,8 @@ RibbonRow CurvesSurface::across(const RibbonSegment& segment, float t, int key) 
     return a;
 }
 
+/// What vectors cannot do with care enough (facing_rows() says so) is done row by row; both ways give the
+/// same bits where both apply.
 void CurvesSurface::make_rows(const RibbonSegment& segment, int key,
                               std::span<const RibbonCache::WantedRow> wanted,
                               std::span<RibbonRow> rows) const {
@@ -188,6 +196,8 @@ void CurvesSurface::make_rows(const RibbonSegment& segment, int key,
     }
 }
 
+/// Rows of one segment are gathered before they are made, so that vectors are full. Rows that have been made
+/// lately are taken from the cache: neighbours along a curve ask for the same ends.
 void CurvesSurface::make_rows(int face, int key, size_t count, bool keep, RibbonCache& cache) const {
     const CurveTopology::Strip strip = topology_.strip(face);
     size_t wants = 0;
@@ -218,6 +228,7 @@ void CurvesSurface::make_rows(int face, int key, size_t count, bool keep, Ribbon
     make();
 }
 
+/// By rows of one v, as grids come: a row costs what a curve costs, its points across are linear.
 void CurvesSurface::evaluate(int face, std::span<const V2f> uv, int key, SurfaceScratch* scratch,
                              std::span<V3f> P, std::span<V3f> dPdu, std::span<V3f> dPdv) const {
     std::unique_ptr<SurfaceScratch> own;
@@ -302,6 +313,7 @@ class CurveComponents : public VariableSource {
     std::span<const V2f> uv_;
 };
 
+/// u goes across the ribbon, v along the whole curve, over all of its faces.
 bool CurvesSurface::evaluate_variables(int face, std::span<const V2f> uv, SurfaceScratch*,
                                        ShadingGrid& grid) const {
     const CurveTopology::Strip strip = topology_.strip(face);
@@ -338,6 +350,7 @@ Box3f CurvesSurface::bound(int face, V2f lo, V2f hi, int key) const {
 
 }  // namespace
 
+/// "constantwidth" is one width for all; "width" counts where both are given.
 std::unique_ptr<Surface> make_curves_surface(const Primitive& primitive, const Camera* camera, Diagnostics&) {
     std::vector<RibbonVariables> keys;
     for (const auto& shape : primitive.shape_keys) {

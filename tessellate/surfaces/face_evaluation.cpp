@@ -15,7 +15,7 @@ constexpr size_t kLanes = 16;
 using Lanes = std::array<float, kLanes>;
 
 /// Parameters of up to kLanes points, `count` of which count, the first of them number `first`.
-struct Block {
+struct PointBlock {
     Lanes u, v;
     size_t first, count;
 };
@@ -23,7 +23,7 @@ struct Block {
 /// Calls f for blocks of kLanes points; the last one is padded with the last point.
 template <class F>
 void for_blocks(std::span<const V2f> uv, F&& f) {
-    Block block;
+    PointBlock block;
     for (block.first = 0; block.first < uv.size(); block.first += kLanes) {
         block.count = std::min(kLanes, uv.size() - block.first);
         for (size_t l = 0; l < kLanes; ++l) {
@@ -35,7 +35,7 @@ void for_blocks(std::span<const V2f> uv, F&& f) {
 }
 
 /// Writes a component of a block's points; padding is dropped.
-void store(const Block& block, const Lanes& values, int component, const ValueSink& sink) {
+void store(const PointBlock& block, const Lanes& values, int component, const ValueSink& sink) {
     for (size_t l = 0; l < block.count; ++l) sink.at(block.first + l, component) = values[l];
 }
 
@@ -66,6 +66,7 @@ inline void combine(const Lanes (&w)[4], const Lanes (&c)[4], Lanes& sum) {
         sum[l] = (w[0][l] * c[0][l] + w[1][l] * c[1][l]) + (w[2][l] * c[2][l] + w[3][l] * c[3][l]);
 }
 
+/// Sums in pairs: two chains of half the length, in an order that all callers share.
 inline void combine(const Lanes (&w)[4], const float* c, int stride, Lanes& sum) {
     const float c0 = c[0], c1 = c[stride], c2 = c[2 * stride], c3 = c[3 * stride];
     for (size_t l = 0; l < kLanes; ++l)
@@ -93,6 +94,8 @@ void bezier_of_part(const float* spline, int stride, float a, float b, float* be
 
 }  // namespace
 
+/// Midpoints and centre are averages of the mesh face's corners, taken in one order for all pieces, so that
+/// pieces which share one agree.
 void piece_corners(const FacePiece& piece, const float* values, int size, float* corners) {
     if (!piece.cut) {
         std::copy_n(values, 4 * size, corners);
@@ -112,9 +115,10 @@ void piece_corners(const FacePiece& piece, const float* values, int size, float*
     }
 }
 
+/// Both weights of a direction are written out, and not one value and a difference: corners come out exact.
 void evaluate_bilinear(const float* corners, int size, std::span<const V2f> uv, ValueSink value, ValueSink du,
                        ValueSink dv) {
-    for_blocks(uv, [&](const Block& b) {
+    for_blocks(uv, [&](const PointBlock& b) {
         for (int k = 0; k < size; ++k) {
             const float c0 = corners[k], c1 = corners[size + k], c2 = corners[2 * size + k],
                         c3 = corners[3 * size + k];
@@ -154,9 +158,10 @@ void values_on_piece(const FacePiece& piece, const float* corners, std::span<con
         values[i] = between_corners(c[0], c[1], c[3], c[2], uv[i].x, uv[i].y);
 }
 
+/// Rows first, then the column of their results: the derivative by v needs the rows only once.
 void evaluate_bspline(const float* controls, int size, std::span<const V2f> uv, ValueSink value, ValueSink du,
                       ValueSink dv) {
-    for_blocks(uv, [&](const Block& b) {
+    for_blocks(uv, [&](const PointBlock& b) {
         const CubicWeights u(b.u), v(b.v);
         for (int k = 0; k < size; ++k) {
             // Rows along u first, then the column of rows along v, with the weights of values or of
@@ -175,6 +180,8 @@ void evaluate_bspline(const float* controls, int size, std::span<const V2f> uv, 
     });
 }
 
+/// Some 32 roundings of a float, by the largest coordinate: more than the few operations of an evaluation can
+/// be off.
 Box3f grown_by_rounding(Box3f box) {
     if (box.isEmpty()) return box;
     for (int k = 0; k < 3; ++k) {
@@ -184,6 +191,7 @@ Box3f grown_by_rounding(Box3f box) {
     return box;
 }
 
+/// A bilinear rectangle lies in the hull of its own four corners.
 Box3f bilinear_bound(const float* corners, V2f lo, V2f hi) {
     const V2f uv[4] = {lo, {hi.x, lo.y}, hi, {lo.x, hi.y}};
     V3f points[4];
@@ -197,6 +205,8 @@ Box3f bilinear_bound(const float* corners, V2f lo, V2f hi) {
     return {box.min - (whole.min - grown.min), box.max + (grown.max - whole.max)};
 }
 
+/// By the Bezier control points of the part alone, which lie far closer to it than the B-spline's own. The
+/// margins go by the largest coordinates of the whole, as its roundings do.
 Box3f bspline_bound(const float* controls, V2f lo, V2f hi) {
     // The rectangle's own Bezier control points, three floats each: their hull holds the surface.
     std::array<float, 48> part;

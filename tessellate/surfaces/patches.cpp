@@ -55,6 +55,7 @@ class PatchSurface : public TopologySurface<PatchSurface> {
     M44f u_bezier_, v_bezier_;
 };
 
+/// Bilinear patches keep identity matrices: their nets need no conversion.
 PatchSurface::PatchSurface(const Primitive& primitive, std::vector<PatchPoints> points)
     : primitive_(primitive),
       mesh_(std::get<PatchMesh>(primitive.shape().topology)),
@@ -115,6 +116,8 @@ BezierPatch PatchSurface::numbers(int face, const float* values, size_t stride) 
     return patch;
 }
 
+/// Indices wrap for periodic meshes; for the others they never reach the end. Rows of P go along u (RISpec
+/// 5.2).
 BezierPatch PatchSurface::controls(int face, const float* values, int count, size_t stride) const {
     BezierPatch patch;
     patch.degree = mesh_.bicubic ? 3 : 1;
@@ -130,11 +133,13 @@ BezierPatch PatchSurface::controls(int face, const float* values, int count, siz
     return patch;
 }
 
+/// Made anew for each batch: a conversion of sixteen points costs less than keeping all of them.
 BezierPatch PatchSurface::positions(int face, int shape_key) const {
     const int floats = points_[shape_key].rational ? 4 : 3;
     return net(face, points_[shape_key].values, floats, floats);
 }
 
+/// Rational patches are evaluated with their weights and divided last (RISpec 5.2, "Pw").
 void PatchSurface::evaluate(int face, std::span<const V2f> uv, int shape_key, SurfaceScratch*,
                             std::span<V3f> P, std::span<V3f> dPdu, std::span<V3f> dPdv) const {
     const BezierPatch patch = positions(face, shape_key);
@@ -194,6 +199,7 @@ class PatchValues : public VariableSource {
     std::span<const V2f> uv_;
 };
 
+/// u and v run over the whole mesh, not over a patch (RISpec 5.2).
 bool PatchSurface::evaluate_variables(int face, std::span<const V2f> uv, SurfaceScratch*,
                                       ShadingGrid& grid) const {
     for (size_t i = 0; i < uv.size(); ++i) {
@@ -220,6 +226,7 @@ Box3f PatchSurface::bound(int face, V2f lo, V2f hi, int shape_key) const {
 
 }  // namespace
 
+/// Arrays have been checked when the RIB file was read; what is missing here came from elsewhere.
 std::unique_ptr<Surface> make_patch_surface(const Primitive& primitive, Diagnostics& diagnostics) {
     std::vector<PatchPoints> points;
     for (const auto& shape : primitive.shape_keys) {

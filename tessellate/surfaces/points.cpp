@@ -85,6 +85,7 @@ struct PointValues {
     V3f place(int point) const { return {P[3 * point], P[3 * point + 1], P[3 * point + 2]}; }
 };
 
+/// What "type" asks for; a Sphere is a Disk whose normals are a sphere's.
 enum class PointType { Disk, Sphere, Picture };
 
 /// Faces that share nothing: each has edges 4 f + side and vertices 4 f + corner of its own. Asked at motion
@@ -139,6 +140,8 @@ class PointsSurface : public Surface {
     std::vector<float> factors_;           ///< drawn radius / radius; 0: a square
 };
 
+/// How disks are drawn is decided once, at the first key: a disk must not change its corners while the
+/// shutter is open.
 PointsSurface::PointsSurface(const Primitive& primitive, const Camera* camera, PointType type,
                              std::vector<PointValues> keys)
     : primitive_(primitive), type_(type), keys_(std::move(keys)) {
@@ -178,6 +181,7 @@ float PointsSurface::factor(int point, const Camera* camera) const {
     return best;
 }
 
+/// Nothing is shared: each edge has vertices of its own face, and lies on it.
 EdgeLine PointsSurface::edge(uint32_t edge) const {
     constexpr uint32_t kFrom[4] = {0, 1, 3, 0}, kTo[4] = {1, 2, 2, 3};
     const uint32_t side = edge % 4, first = edge - side;
@@ -200,6 +204,7 @@ bool PointsSurface::is_hole(int face) const {
     return true;
 }
 
+/// Centre and diameter go linearly between shape keys; the axes are those of the motion key's camera.
 PointsSurface::Disk PointsSurface::disk(int point, int key) const {
     const ShapeMix mix = shape_mix(primitive_, key, primitive_.key_count());
     Disk disk;
@@ -238,6 +243,7 @@ void PointsSurface::evaluate(int face, std::span<const V2f> uv, int key, Surface
     }
 }
 
+/// The points of the unit disk are the same for all faces, and made once.
 void PointsSurface::lattices(int first, int count, FaceLattices& lattices) const {
     constexpr int kFaces = FaceLattices::kFaces;
     std::array<float, kFaces> centre[3], x[3], y[3];
@@ -275,6 +281,7 @@ class ValuesOfPoint : public VariableSource {
     int point_;
 };
 
+/// u and v are those of the disk's own square, from 0 to 1 on each point.
 bool PointsSurface::evaluate_variables(int face, std::span<const V2f> uv, SurfaceScratch*,
                                        ShadingGrid& grid) const {
     for (size_t i = 0; i < uv.size(); ++i) grid.u[i] = uv[i].x, grid.v[i] = uv[i].y;
@@ -296,6 +303,7 @@ void PointsSurface::set_sphere_normals(const Disk& disk, std::span<const V2f> uv
     }
 }
 
+/// The same for all parts of a face: points are small, and their parts have little to gain.
 Box3f PointsSurface::bound(int face, V2f, V2f, int key) const {
     const Disk d = disk(face, key);
     // A box about the rectangle of x and y, in which the disk lies too.
@@ -322,6 +330,7 @@ PointType type_of_points(const Primitive& primitive, Diagnostics& diagnostics) {
 
 }  // namespace
 
+/// Points without a width are 1 in diameter (RISpec 5.5).
 std::unique_ptr<Surface> make_points_surface(const Primitive& primitive, const Camera* camera,
                                              Diagnostics& diagnostics) {
     std::vector<PointValues> keys;

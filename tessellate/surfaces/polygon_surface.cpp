@@ -13,6 +13,7 @@
 namespace trapeze {
 namespace {
 
+/// With normals of its own a mesh is shaded smooth; only such as are numbers, three each, count.
 bool has_normals(const ParameterList& variables) {
     const Parameter* N = variables.find("N");
     return N && N->declaration.floats_per_item() == 3 && !N->is_string();
@@ -90,6 +91,7 @@ Box3f PolygonSurface::bound(int face, V2f lo, V2f hi, int shape_key) const {
     return bilinear_bound(corners, lo, hi);
 }
 
+/// Values of variables on one face, by the class that says which of the primitive's numbers are its corners'.
 class PolygonSurface::Values : public VariableSource {
   public:
     Values(const PolygonSurface& surface, int face, std::span<const V2f> uv)
@@ -143,6 +145,8 @@ void PolygonSurface::set_places(int face, std::span<const V2f> uv, std::span<flo
     }
 }
 
+/// As the shutter opens, where shading happens. Twice the face's area along its normal is the cross product
+/// of a quad's diagonals, or of a triangle's two sides.
 bool PolygonSurface::has_place_derivatives(int face) const {
     const FacePiece piece = topology_.piece(face);
     const std::array<float, 12> positions = corner_positions(piece, 0);
@@ -169,6 +173,7 @@ void PolygonSurface::differentiate_by_places(int face, V2f at, ShadingGrid& grid
     grid.dPdv.fill(count, V3f((by_v * double{du.x} - by_u * double{dv.x}) / determinant));
 }
 
+/// RISpec gives polygons the x and y of object space for u, v, s and t, whatever the faces' own squares are.
 bool PolygonSurface::evaluate_variables(int face, std::span<const V2f> uv, SurfaceScratch*,
                                         ShadingGrid& grid) const {
     const bool by_place = parameters_ == FaceParameters::PlaceInObject;
@@ -213,6 +218,7 @@ bool is_valid(const Primitive& primitive, Diagnostics& diagnostics) {
     return true;
 }
 
+/// Null where nothing has an area, with a warning and no error: the picture is right without it.
 std::unique_ptr<Surface> surface_of(const Primitive& primitive, PolygonFaces faces, FaceParameters parameters,
                                     Diagnostics& diagnostics) {
     if (faces.sizes.empty()) {
@@ -231,6 +237,7 @@ std::unique_ptr<Surface> make_polygon_surface(const Primitive& primitive, Diagno
                       FaceParameters::PlaceInObject, diagnostics);
 }
 
+/// For what makes meshes itself (Blobby): its quads are not flat, and must not be cut.
 std::unique_ptr<Surface> make_bilinear_surface(const Primitive& primitive, Diagnostics& diagnostics) {
     if (!is_valid(primitive, diagnostics)) return nullptr;
     return surface_of(primitive, make_whole_faces(std::get<PolygonMesh>(primitive.shape().topology)),

@@ -15,6 +15,7 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 using Kind = Quadric::Kind;
 
+/// RIB gives thetamax and the torus' angles in degrees.
 float radians(float degrees) {
     return degrees * (kPi / 180);
 }
@@ -47,6 +48,7 @@ Range cosine(Range angle) {
     return {c.lo - kSlack, c.hi + kSlack};
 }
 
+/// The cosine a quarter turn later.
 Range sine(Range angle) {
     return cosine({angle.lo - kPi / 2, angle.hi - kPi / 2});
 }
@@ -78,10 +80,12 @@ struct Profile {
     ProfileRange over(Range v) const;
 };
 
+/// Also several turns, and backwards; exact multiples come from files but for rounding.
 bool whole_turn(float degrees) {
     return degrees != 0 && std::abs(std::remainder(degrees, 360.0f)) < 1e-4f;
 }
 
+/// Latitudes run from that of zmin to that of zmax, which is how v runs over a sphere (RISpec 5.4).
 Profile sphere_profile(const std::array<float, 7>& q) {
     Profile p;
     p.a = q[0];
@@ -94,6 +98,7 @@ Profile sphere_profile(const std::array<float, 7>& q) {
     return p;
 }
 
+/// `values` are the request's arguments in its order, without thetamax.
 Profile profile_of(const Quadric& quadric) {
     const std::array<float, 7>& q = quadric.values;
     Profile p;
@@ -127,6 +132,7 @@ Profile profile_of(const Quadric& quadric) {
     return p;
 }
 
+/// Poles get an x of exactly 0, so that all points of one have the same bits.
 ProfilePoint Profile::at(float v) const {
     const float span = to - from, along = from + v * span;
     const bool at_point = (bottom_is_point && v == 0) || (top_is_point && v == 1);
@@ -162,6 +168,8 @@ ProfilePoint Profile::at(float v) const {
     return {};
 }
 
+/// Bounds of the profile over a range of v: circles by ranges of sine and cosine, all others by their ends.
+/// No tighter than its parts: ranges of x and z are taken each for itself.
 ProfileRange Profile::over(Range v) const {
     if (kind == Kind::Sphere || kind == Kind::Torus) {
         const Range angle = Range::of(from + v.lo * (to - from), from + v.hi * (to - from));
@@ -214,6 +222,7 @@ class CornerValues : public VariableSource {
     const ShadingGrid& grid_;
 };
 
+/// The number of faces goes by the largest sweep of all keys, as each key has the same faces.
 QuadricSurface::QuadricSurface(const Primitive& primitive) : primitive_(primitive) {
     // The topology is that of all shape keys: what closes at all of them is closed.
     faces_.u_wraps = faces_.v_wraps = faces_.bottom_is_point = faces_.top_is_point = true;
@@ -254,6 +263,7 @@ void QuadricSurface::evaluate(int face, std::span<const V2f> uv, int shape_key, 
     }
 }
 
+/// Variables have a value at each of the four corners of u and v, and are mixed in between (RISpec 5.4).
 bool QuadricSurface::evaluate_variables(int face, std::span<const V2f> uv, SurfaceScratch*,
                                         ShadingGrid& grid) const {
     for (size_t i = 0; i < uv.size(); ++i) {

@@ -15,7 +15,9 @@ struct RibbonSegment {
     V3f start{0, 0, 0}, end{0, 0, 0};  ///< of a line: what the ribbon spans at its joints
 };
 
-/// A few segments and rows, each in the one place where it may be.
+/// A few segments and rows, each in the one place where it may be. Direct-mapped: a new row takes the place
+/// of what was there. Keys are compared whole, so that a row held for another surface's face cannot be taken:
+/// a scratch belongs to one surface.
 class RibbonCache final : public SurfaceScratch {
   public:
     /// A row is told by its face, motion key, and the face's v in [0, 1].
@@ -28,6 +30,7 @@ class RibbonCache final : public SurfaceScratch {
             return face == of_face && key == at_key && v == at_v;
         }
     };
+    /// A segment, by its face, motion key and number within the face.
     struct Segment {
         int face = -1, key = 0, number = 0;
         RibbonSegment segment;

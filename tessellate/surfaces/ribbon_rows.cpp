@@ -83,6 +83,8 @@ HWY_INLINE LaneVector across(const CameraFacing& facing, const LaneVector& ray, 
     return {hn::Div(object.x, length), hn::Div(object.y, length), hn::Div(object.z, length)};
 }
 
+/// The common case of CurvesSurface::across(), for cubic ribbons without normals: lanes where it does not
+/// hold lose `ok` and are made again by that.
 HWY_INLINE LaneRow row_at(const LaneSegment& segment, const CameraFacing& facing, Lanes t) {
     const F d;
     const LaneWeights weights(t);
@@ -124,6 +126,8 @@ HWY_INLINE LaneSegment same(const BezierCurve& P, const CurvePiece& width) {
     return segment;
 }
 
+/// Parameters beyond the last are copies of it, so that lanes hold numbers; bits of the result stand for rows
+/// that are left to the caller.
 uint32_t rows_of_segment(const BezierCurve& P, const CurvePiece& width, const CameraFacing& facing,
                          std::span<const float> t, std::span<RibbonRow* const> rows) {
     const F d;
@@ -164,6 +168,7 @@ HWY_INLINE LaneSegment loaded(const RibbonLanes& lanes, bool cubic_width, size_t
     return segment;
 }
 
+/// Lanes are faces here: the same place of each of sixteen ribbons is made at once.
 void lattices_of_segments(std::span<const RibbonLanes> segments, bool cubic_width, const CameraFacing& facing,
                           uint32_t faces, FaceLattices& lattices) {
     const F d;

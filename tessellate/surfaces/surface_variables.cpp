@@ -7,10 +7,12 @@
 namespace trapeze {
 namespace {
 
+/// Positions have been evaluated as the surface itself.
 bool is_position(std::string_view name) {
     return name == "P" || name == "Pw";
 }
 
+/// Strings have nothing between two values, and are one for a face whatever their class.
 bool is_uniform(const Parameter& parameter) {
     const StorageClass storage = parameter.declaration.storage;
     return parameter.is_string() || storage == StorageClass::Constant || storage == StorageClass::Uniform;
@@ -49,6 +51,7 @@ bool set_own_floats(const Parameter& parameter, const VariableSource& source, Sh
 
 }  // namespace
 
+/// Grids are used again for other subpatches: what a slot held before is overwritten by the caller.
 GridVariable& variable_slot(ShadingGrid& grid, size_t index, const Parameter& parameter, bool uniform) {
     if (index >= grid.variables.size()) grid.variables.resize(index + 1);
     // Names and planes are kept where they fit: grids of one surface have the same variables in the same
@@ -64,6 +67,8 @@ GridVariable& variable_slot(ShadingGrid& grid, size_t index, const Parameter& pa
     return variable;
 }
 
+/// Names decide where values go: shaders know Cs, Os, N, s and t as predefined variables, and all others by
+/// the name of a parameter.
 bool set_variables(const ParameterList& parameters, const VariableSource& source, ShadingGrid& grid) {
     size_t count = 0;
     bool has_normals = false;
@@ -90,6 +95,7 @@ bool set_variables(const ParameterList& parameters, const VariableSource& source
     return has_normals;
 }
 
+/// TextureCoordinates gives the corners (0, 0), (1, 0), (0, 1), (1, 1) in this order, s and t each.
 void set_texture_coordinates(const Attributes& attributes, ShadingGrid& grid) {
     const std::array<float, 8>& c = attributes.texture_coordinates;
     for (size_t i = 0; i < grid.u.size(); ++i) {

@@ -11,7 +11,8 @@
 namespace trapeze {
 
 /// What a kind of surface knows of its variables: values of one component at the grid's vertices, in the
-/// variable's own space. One for each grid.
+/// variable's own space. One for each grid. It interpolates and knows nothing of grids' arrays;
+/// set_variables() knows those and nothing of topology.
 class VariableSource {
   public:
     virtual ~VariableSource() = default;

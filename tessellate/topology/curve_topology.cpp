@@ -2,6 +2,7 @@
 
 namespace trapeze {
 
+/// Sums of counts, so that each curve's first vertex, value and face is found by its number.
 CurveTopology::CurveTopology(const Curves& curves, int segments_per_face, bool joins)
     : curves_(curves), joins_(joins) {
     const size_t count = curves.vertices_per_curve.size();
@@ -23,6 +24,8 @@ CurveTopology::CurveTopology(const Curves& curves, int segments_per_face, bool j
         for (int f = first_face_[c]; f < first_face_[c + 1]; ++f) curve_of_face_[f] = static_cast<int>(c);
 }
 
+/// Segments are dealt out evenly in whole numbers; 64 bits, for the product of faces and segments may not fit
+/// 32.
 CurveTopology::Strip CurveTopology::strip(int face) const {
     Strip strip;
     strip.curve = curve_of_face_[face];
@@ -41,12 +44,14 @@ uint32_t CurveTopology::joint_after(int face) const {
                             : faces() + static_cast<uint32_t>(curve);
 }
 
+/// The top is the bottom edge of the face that follows, or an end's own.
 std::array<SurfaceSide, 4> CurveTopology::sides(int face) const {
     const uint32_t f = static_cast<uint32_t>(face), next = joint_after(face);
     const uint32_t top = next < faces() ? 3 * next + 2 : 2 * faces() + next;
     return {SurfaceSide{3 * f + 2}, SurfaceSide{3 * f + 1}, SurfaceSide{top}, SurfaceSide{3 * f}};
 }
 
+/// Edges across a curve belong to the face that begins there: its v = 0.
 EdgeLine CurveTopology::edge(uint32_t edge) const {
     EdgeLine line;
     uint32_t from, to;  // vertices
@@ -69,6 +74,7 @@ EdgeLine CurveTopology::edge(uint32_t edge) const {
     return line;
 }
 
+/// Each joint has two vertices, at the two sides of the ribbon.
 SurfacePoint CurveTopology::vertex(uint32_t vertex) const {
     const uint32_t joint = vertex / 2;
     const float u = static_cast<float>(vertex % 2);

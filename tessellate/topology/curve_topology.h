@@ -20,6 +20,7 @@ class CurveTopology {
     CurveTopology(const Curves& curves, int segments_per_face, bool joins);
 
     int face_count() const { return static_cast<int>(curve_of_face_.size()); }
+    /// Two along each face, one across where it begins, and one across each end that joins nothing.
     uint32_t edge_count() const { return 3 * faces() + end_count(); }
     uint32_t vertex_count() const { return 2 * (faces() + end_count()); }
     std::array<SurfaceSide, 4> sides(int face) const;

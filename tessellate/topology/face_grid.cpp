@@ -4,6 +4,7 @@
 
 namespace trapeze {
 
+/// Without tears nothing is stored: a line for each face and, unless the last is the first, one more.
 int FaceLines::count(int faces, bool wraps) const {
     if (!owner_.empty()) return static_cast<int>(owner_.size());
     return wraps ? faces : faces + 1;
@@ -14,12 +15,15 @@ int FaceLines::high(int face, int faces, bool wraps) const {
     return wraps && face + 1 == faces ? 0 : face + 1;
 }
 
+/// The face that begins at the line, so that shared edges are evaluated at u = 0 or v = 0; only the last line
+/// has to be the end of a face.
 std::pair<int, int> FaceLines::face_at(int line, int faces) const {
     if (!owner_.empty()) return owner_[line];
     const int face = std::min(line, faces - 1);
     return {face, line - face};
 }
 
+/// Called once, while the surface is made.
 void FaceLines::tear(const std::vector<bool>& torn, bool wraps) {
     if (std::ranges::find(torn, true) == torn.end()) return;
     const int faces = static_cast<int>(torn.size());
@@ -38,6 +42,7 @@ void FaceLines::tear(const std::vector<bool>& torn, bool wraps) {
     }
 }
 
+/// In the order of SideName; no side runs against its edge, as all edges run along growing u or v.
 std::array<SurfaceSide, 4> FaceGrid::sides(int face) const {
     const int i = column_of(face), j = row_of(face);
     return {SurfaceSide{edge_along_u(i, v_lines.low(j))},
@@ -46,12 +51,14 @@ std::array<SurfaceSide, 4> FaceGrid::sides(int face) const {
             SurfaceSide{edge_along_v(u_lines.low(i), j)}};
 }
 
+/// Other vertices of a pole's line have numbers that nothing names.
 uint32_t FaceGrid::vertex_at(int u_line, int v_line) const {
     if ((bottom_is_point && v_line == 0) || (top_is_point && v_line == vertex_rows() - 1)) u_line = 0;
     if ((left_is_point && u_line == 0) || (right_is_point && u_line == vertex_columns() - 1)) v_line = 0;
     return static_cast<uint32_t>(v_line * vertex_columns() + u_line);
 }
 
+/// At a pole both ends of an edge are the same vertex, though its parameters differ.
 EdgeLine FaceGrid::edge(uint32_t edge) const {
     const int number = static_cast<int>(edge), along_u = columns * vertex_rows();
     EdgeLine line;

@@ -10,7 +10,7 @@
 namespace trapeze {
 
 /// The lines at which faces along one axis begin and end. Neighbours share a line where the surface is not
-/// torn.
+/// torn. It does not keep the number of faces or whether they wrap: FaceGrid does, and passes both.
 class FaceLines {
   public:
     /// Lines along an axis of so many faces.
@@ -59,6 +59,8 @@ struct FaceGrid {
     }
 
   private:
+    /// Lines on which vertices lie: one more than faces, as many where the grid wraps, and one more for each
+    /// tear.
     int vertex_columns() const { return u_lines.count(columns, u_wraps); }
     int vertex_rows() const { return v_lines.count(rows, v_wraps); }
     uint32_t edge_along_u(int i, int line) const { return static_cast<uint32_t>(line * columns + i); }

@@ -8,7 +8,7 @@
 namespace trapeze {
 
 /// Points at v = row / 8 and u = column / 4, all in object space at the first shape key; rows of odd number
-/// have the outer columns alone.
+/// have the outer columns alone. Nine rows along v and five columns along u: ribbons are long in v.
 struct FaceLattices {
     static constexpr int kFaces = 16, kRows = 9, kColumns = 5;
 

@@ -37,6 +37,7 @@ HWY_INLINE LaneVectors<D> transformed_vectors(D d, const M44f& m, const LaneVect
     return {component(0), component(1), component(2)};
 }
 
+/// Points are turned like vectors and then moved; no division, as matrices here are affine.
 template <class D>
 HWY_INLINE LaneVectors<D> transformed_points(D d, const M44f& m, const LaneVectors<D>& p) {
     const LaneVectors<D> turned = transformed_vectors(d, m, p);

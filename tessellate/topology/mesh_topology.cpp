@@ -38,6 +38,8 @@ MeshTopology::MeshTopology(std::span<const int> vertices_per_face, std::span<con
     place(evaluable);
 }
 
+/// Faces follow the mesh's order; the pieces of a cut face stand together, so that a piece's number is its
+/// distance from the first.
 void MeshTopology::number_faces(std::span<const int> vertices_per_face, int whole_size) {
     first_corner_.reserve(vertices_per_face.size() + 1);
     first_spoke_.reserve(vertices_per_face.size() + 1);
@@ -60,6 +62,7 @@ void MeshTopology::number_faces(std::span<const int> vertices_per_face, int whol
     first_spoke_.push_back(spoke);
 }
 
+/// A pair of vertices is one edge however many faces name it: three faces at an edge share it all alike.
 void MeshTopology::number_edges() {
     PairNumbers numbers(vertices_.size());
     corner_edge_.resize(vertices_.size());
@@ -106,6 +109,7 @@ int MeshTopology::first_face(int mesh_face) const {
     return mesh_face - static_cast<int>(cut_before) + first_spoke_[mesh_face];
 }
 
+/// Pieces of a cut face are numbered by its corners, whole faces have the number 0.
 FacePiece MeshTopology::piece(int face) const {
     FacePiece piece;
     piece.mesh_face = mesh_face_[face];
@@ -115,6 +119,7 @@ FacePiece MeshTopology::piece(int face) const {
     return piece;
 }
 
+/// The parameter runs up where the face goes round in the sense of the edge's first use, else down.
 SurfaceSide MeshTopology::mesh_side(int mesh_face, int side) const {
     const int corner = first_corner_[mesh_face] + side;
     const int edge = corner_edge_[corner];
@@ -122,6 +127,7 @@ SurfaceSide MeshTopology::mesh_side(int mesh_face, int side) const {
     return {static_cast<uint32_t>(edge), 1, 0};
 }
 
+/// Sides of a piece are half of a mesh edge each, or a spoke.
 std::array<SurfaceSide, 4> MeshTopology::sides(int face) const {
     const FacePiece p = piece(face);
     if (!p.cut) {
@@ -141,6 +147,7 @@ std::array<SurfaceSide, 4> MeshTopology::sides(int face) const {
             SurfaceSide{spoke(p.mesh_face, p.previous()), 0, 1}, left};
 }
 
+/// Spokes belong to the piece on whose u = 1 they lie.
 EdgeLine MeshTopology::edge(uint32_t edge) const {
     EdgeLine line;
     if (edge < spokes_begin()) {
@@ -171,6 +178,7 @@ EdgeLine MeshTopology::edge(uint32_t edge) const {
     return line;
 }
 
+/// Centres of cut faces are the corner (1, 1) of the first piece.
 SurfacePoint MeshTopology::vertex(uint32_t vertex) const {
     if (vertex >= vertices_at_.size()) {
         const int mesh_face = cut_faces_[vertex - vertices_at_.size()];

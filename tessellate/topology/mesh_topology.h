@@ -34,7 +34,8 @@ struct FacePiece {
     int previous() const { return piece == 0 ? size - 1 : piece - 1; }
 };
 
-/// Numbers of faces, edges and vertices, and how they join. Nothing of where they are.
+/// Numbers of faces, edges and vertices, and how they join. Nothing of where they are. Memory is a few
+/// integers a corner; pieces are computed from the mesh face's when they are asked for.
 class MeshTopology {
   public:
     /// `vertices` outlives the topology. `evaluable[f]`: face f has a surface of its own, so that edges and
@@ -43,6 +44,8 @@ class MeshTopology {
                  int whole_size, std::span<const uint8_t> evaluable);
 
     int face_count() const { return static_cast<int>(mesh_face_.size()); }
+    /// The mesh's own, then the spokes of faces that are cut, from their middles to the middles of their
+    /// sides.
     uint32_t edge_count() const { return spokes_begin() + static_cast<uint32_t>(first_spoke_.back()); }
     uint32_t vertex_count() const { return static_cast<uint32_t>(vertices_at_.size() + cut_faces_.size()); }
 

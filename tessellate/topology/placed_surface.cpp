@@ -52,6 +52,7 @@ std::vector<M44f> matrices_at_keys(const Primitive& primitive, int keys) {
     return matrices;
 }
 
+/// Four at a time, the oldest goes: a thread mostly works on one surface, or on a few by turns.
 SurfaceScratch* EvaluationScratch::of(const Surface& surface) {
     for (Entry& entry : entries_)
         if (entry.surface == &surface) return entry.scratch.get();
@@ -68,6 +69,7 @@ std::span<V3f> EvaluationScratch::points(size_t slot, size_t count) {
     return {points.data(), count};
 }
 
+/// Parentheses fix the order of sums: point_lanes.cpp does the same in vectors.
 V3f transform_point(const M44f& m, const V3f& p) {
     return {((p.x * m[0][0] + p.y * m[1][0]) + p.z * m[2][0]) + m[3][0],
             ((p.x * m[0][1] + p.y * m[1][1]) + p.z * m[2][1]) + m[3][1],
@@ -79,6 +81,7 @@ V3f transform_vector(const M44f& m, const V3f& v) {
             (v.x * m[0][2] + v.y * m[1][2]) + v.z * m[2][2]};
 }
 
+/// Cofactors need no division, and so no care for determinants near 0.
 M44f normal_matrix(const M44f& m) {
     const V3f x(m[0][0], m[0][1], m[0][2]), y(m[1][0], m[1][1], m[1][2]), z(m[2][0], m[2][1], m[2][2]);
     const V3f rows[3] = {y.cross(z), z.cross(x), x.cross(y)};
@@ -89,6 +92,7 @@ M44f normal_matrix(const M44f& m) {
     return n;
 }
 
+/// One key where nothing moves, so that still primitives cost nothing more in frames with motion.
 PlacedSurface::PlacedSurface(const Surface& surface, const Primitive& primitive, bool moves)
     : surface_(&surface),
       primitive_(&primitive),
@@ -99,6 +103,8 @@ ShapeMix PlacedSurface::mix_of(int key) const {
     return surface_->has_motion_keys() ? ShapeMix{key, 0} : shape_mix(*primitive_, key, key_count());
 }
 
+/// Keys of the primitive are as many as both its transforms and its shapes need: shape keys lie at even
+/// distances among them.
 ShapeMix shape_mix(const Primitive& primitive, int key, int key_count) {
     const int segments = static_cast<int>(primitive.shape_keys.size()) - 1;
     if (segments == 0 || key_count == 1) return {};
@@ -112,6 +118,8 @@ void PlacedSurface::positions(int face, std::span<const V2f> uv, int keys, Evalu
     positions_and_derivatives(face, uv, keys, scratch, P, {}, {});
 }
 
+/// Points are mixed in object space and then transformed, key by key; the surface is evaluated once for each
+/// shape key, whatever the number of motion keys.
 void PlacedSurface::positions_and_derivatives(int face, std::span<const V2f> uv, int keys,
                                               EvaluationScratch& scratch, std::span<V3f> P,
                                               std::span<V3f> dPdu, std::span<V3f> dPdv) const {
@@ -147,6 +155,7 @@ void PlacedSurface::positions_and_derivatives(int face, std::span<const V2f> uv,
     transform_vectors(camera_from_object_[0], dPdv);
 }
 
+/// Points go straight from one shape key to the next, and so stay in the box about both.
 Box3f PlacedSurface::bound(int face, V2f lo, V2f hi, int key) const {
     const ShapeMix mix = mix_of(key);
     Box3f box = surface_->bound(face, lo, hi, mix.first);

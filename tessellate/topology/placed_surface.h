@@ -23,6 +23,7 @@ class EvaluationScratch {
     static constexpr size_t kSlots = 5;
 
   private:
+    /// The oldest is replaced; the surface's address tells whose scratch it is.
     struct Entry {
         const Surface* surface = nullptr;
         std::unique_ptr<SurfaceScratch> scratch;
@@ -42,7 +43,8 @@ ShapeMix shape_mix(const Primitive& primitive, int key, int key_count);
 /// The primitive's transform, camera space from object space, at each of so many motion keys.
 std::vector<M44f> matrices_at_keys(const Primitive& primitive, int key_count);
 
-/// One primitive's surface in camera space. Refers to both, which outlive it; threads share it.
+/// One primitive's surface in camera space. Refers to both, which outlive it; threads share it. `moves` false
+/// takes all motion out, as a frame without motion blur is made.
 class PlacedSurface {
   public:
     /// `moves`: whether the frame has more than one key at all.

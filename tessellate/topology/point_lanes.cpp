@@ -40,6 +40,7 @@ HWY_INLINE void for_runs(size_t size, const Body& f) {
     if (first < size) f(first, size - first);
 }
 
+/// Three floats a vector, unpacked to planes; what is not there is read as 0.
 HWY_INLINE LaneVector loaded(const V3f* vectors, size_t count) {
     const F d;
     LaneVector v;
@@ -76,6 +77,7 @@ HWY_INLINE void store(const LaneVector& v, Triples& planes, size_t first, size_t
     }
 }
 
+/// Vectors are not moved by the matrix' last row.
 void transform_lanes(const M44f& m, const V3f* in, size_t size, bool points, V3f* out) {
     const F d;
     for_runs(size, [&](size_t first, size_t count) {
@@ -104,6 +106,7 @@ HWY_INLINE LaneVector scaled(const LaneVector& v) {
     return v * scale;
 }
 
+/// As unit_normal(), operation by operation.
 void normals_of(const V3f* dPdu, const V3f* dPdv, size_t size, Triples& normals) {
     const F d;
     for_runs(size, [&](size_t first, size_t count) {
@@ -130,6 +133,7 @@ HWY_EXPORT(transform_lanes);
 HWY_EXPORT(planes_of);
 HWY_EXPORT(normals_of);
 
+/// Zero where the derivatives are parallel, or one of them has no length.
 V3f unit_normal(const V3f& dPdu, const V3f& dPdv) {
     // Scaled first: derivatives of tiny faces have squares that underflow.
     const auto scale = [](const V3f& v) {

@@ -12,6 +12,8 @@
 namespace trapeze {
 namespace {
 
+using testing::for_each_target;
+
 /// Of all sizes, some of which have no direction or no end.
 std::vector<V3f> vectors(size_t count, uint32_t seed) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();

@@ -52,6 +52,7 @@ PolygonFaces FaceMaker::run() {
     return std::move(faces_);
 }
 
+/// Faces stay as they are, whatever their number of corners.
 PolygonFaces FaceMaker::whole() {
     for (size_t i = 0; i < mesh_.vertices_per_loop.size(); ++i) {
         gather(std::span(mesh_.vertices_per_loop).subspan(i, 1));
@@ -60,6 +61,8 @@ PolygonFaces FaceMaker::whole() {
     return std::move(faces_);
 }
 
+/// Corners that name the vertex of the one before would make sides without length; they are dropped, also
+/// where the loop closes.
 void FaceMaker::gather(std::span<const int> loop_sizes) {
     corners_.clear(), loops_.clear();
     for (int size : loop_sizes) {
@@ -86,6 +89,7 @@ V3d FaceMaker::area_normal() const {
     return sum;
 }
 
+/// Such a quad is one face; any other is cut into triangles, which are flat whatever their corners.
 bool FaceMaker::is_flat_and_convex(const V3d& normal) const {
     const double length = normal.length();
     if (!(length > 0)) return false;
@@ -100,6 +104,7 @@ bool FaceMaker::is_flat_and_convex(const V3d& normal) const {
     return true;
 }
 
+/// A face that has a vertex twice is left out: it has no area, or would have an edge with itself.
 void FaceMaker::add(int polygon, std::span<const int> corners) {
     for (size_t i = 0; i < corners.size(); ++i)
         for (size_t j = 0; j < i; ++j)
@@ -112,6 +117,8 @@ void FaceMaker::add(int polygon, std::span<const int> corners) {
     }
 }
 
+/// A flat convex quad stays whole, for it dices into the better grid; all others are triangulated in a plane
+/// along two axes, which projects without rounding.
 void FaceMaker::polygon(int number, std::span<const int> loop_sizes) {
     gather(loop_sizes);
     if (loops_.empty() || loops_[0] < 3) return;

@@ -9,7 +9,8 @@
 
 namespace trapeze {
 
-/// Faces of a mesh, one after the other.
+/// Faces of a mesh, one after the other. `corners` leads back to the file's numbering, by which variables of
+/// class facevarying are found.
 struct PolygonFaces {
     std::vector<int> sizes;     ///< 3 or 4 corners
     std::vector<int> vertices;  ///< of all faces' corners

@@ -39,13 +39,16 @@ struct SurfaceSide {
 enum SideName { kBottom = 0, kRight = 1, kTop = 2, kLeft = 3 };  ///< v = 0, u = 1, v = 1, u = 0
 
 /// An end of an edge: a vertex, or a point within another edge (that edge then decides where the point is).
+/// Edges that end within others come of cut faces and of splits: T-junctions, which are closed by taking the
+/// other edge's vertex.
 struct EdgeEnd {
     bool on_edge = false;
     uint32_t id = 0;      ///< of the vertex or edge
     float parameter = 0;  ///< on that edge
 };
 
-/// Where an edge is evaluated: on `face`, from `from` to `to`, linear in the edge's parameter.
+/// Where an edge is evaluated: on `face`, from `from` to `to`, linear in the edge's parameter. `to` may lie
+/// beyond the unit square, where the surface says that it accepts that (mesh_topology.h).
 struct EdgeLine {
     int face = 0;
     V2f from{0, 0}, to{1, 0};
@@ -122,7 +125,9 @@ std::unique_ptr<Surface> make_polygon_surface(const Primitive& primitive, Diagno
 std::unique_ptr<Surface> make_bilinear_surface(const Primitive& primitive, Diagnostics& diagnostics);
 /// Limit surfaces of meshes, by Catmull and Clark's scheme [Catmull78], by Loop's, or bilinear.
 std::unique_ptr<Surface> make_subdivision_surface(const Primitive& primitive, Diagnostics& diagnostics);
+/// The seven quadrics; their faces are about a quarter turn wide.
 std::unique_ptr<Surface> make_quadric_surface(const Primitive& primitive, Diagnostics& diagnostics);
+/// Patch and PatchMesh, bilinear and bicubic.
 std::unique_ptr<Surface> make_patch_surface(const Primitive& primitive, Diagnostics& diagnostics);
 std::unique_ptr<Surface> make_nu_patch_surface(const Primitive& primitive, Diagnostics& diagnostics);
 /// What surfaces see of the frame that they are for. Both may be null.

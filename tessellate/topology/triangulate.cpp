@@ -24,7 +24,8 @@ bool inside_triangle(const V2d& a, const V2d& b, const V2d& c, const V2d& p) {
     return area2(a, b, p) > 0 && area2(b, c, p) > 0 && area2(c, a, p) > 0;
 }
 
-/// A corner of the ring that is being clipped. Bridges visit points twice.
+/// A corner of the ring that is being clipped. Bridges visit points twice. Nodes are linked both ways, so
+/// that an ear is cut off by relinking its neighbours.
 struct RingNode {
     int point = 0;
     int previous = 0, next = 0;
@@ -57,6 +58,8 @@ class RingNodeGrid {
     std::vector<int> first_, nodes_;
 };
 
+/// About two nodes a cell, sorted into cells by counting: looking for points in an ear is then about
+/// constant, and the whole not quadratic.
 RingNodeGrid::RingNodeGrid(const std::vector<RingNode>& nodes, std::span<const V2d> points) {
     Imath::Box2d box;
     for (const RingNode& node : nodes) box.extendBy(points[node.point]);
@@ -245,6 +248,8 @@ bool Triangulator::is_ear(int node, Ear want, const RingNodeGrid& grid) const {
     });
 }
 
+/// What is asked for falls step by step: rounding and loops that cross may leave no proper ear, and there
+/// must be one triangle less each time.
 int Triangulator::find_ear(int start, int size, const RingNodeGrid& grid) const {
     for (const Ear want : {Ear::Clean, Ear::WithoutArea, Ear::Convex, Ear::Any}) {
         int node = start;

@@ -18,6 +18,8 @@
 namespace trapeze {
 namespace {
 
+using testing::ShaderFolder;
+
 /// A grid that bends towards the viewer at z = 5 or so, in front of one primitive.
 ShadingGrid bent_grid(const Scene& scene, int side) {
     ShadingGrid grid;

@@ -45,12 +45,11 @@ struct Seen {
 
 /// Of the vertices of all keys, in the picture: how far outside of their subpatches' pixels.
 Seen look(const std::string& before, const std::string& surface, bool keep_all) {
-    rib::testing::Outcome read =
-        rib::testing::read_text(before + " WorldBegin ShadingRate 4 Translate 0.4 -0.3 0 " +
-                                (keep_all ? "Attribute \"displacementbound\" \"sphere\" 1e4 " : "") +
-                                "MotionBegin [0 1] Translate -0.3 0.2 0 Translate 0.2 -0.1 -0.4 MotionEnd "
-                                "Rotate 25 1 0.5 0 " +
-                                surface + " WorldEnd");
+    ReadOutcome read = read_text(before + " WorldBegin ShadingRate 4 Translate 0.4 -0.3 0 " +
+                                 (keep_all ? "Attribute \"displacementbound\" \"sphere\" 1e4 " : "") +
+                                 "MotionBegin [0 1] Translate -0.3 0.2 0 Translate 0.2 -0.1 -0.4 MotionEnd "
+                                 "Rotate 25 1 0.5 0 " +
+                                 surface + " WorldEnd");
     EXPECT_THAT(read.messages, ::testing::IsEmpty());
     TestScene scene;
     scene.scene = std::move(read.worlds.at(0));

@@ -17,7 +17,7 @@ bool is_inside(const GridShape& shape, size_t vertex) {
 /// Visits the vertices of a scene's shaded grids; Ci is what the shader found.
 void shade_primitives(const std::string& text, const std::string& found,
                       const std::function<void(const ShadingGrid&, size_t)>& visit) {
-    rib::testing::Outcome read = rib::testing::read_text(
+    ReadOutcome read = read_text(
         "Format 100 100 1 ScreenWindow -3 3 -3 3 Projection \"orthographic\" Clipping 0.01 1000\nWorldBegin "
         "Translate 0 0 10 ShadingRate 0.25 Surface \"errors\" " +
         text + " WorldEnd");

@@ -39,12 +39,12 @@ struct DicedGrid {
 
 /// RIB text as a world of which all is diced: what is outside of the view might be displaced into it.
 struct DicedRib {
-    rib::testing::Outcome read;
+    ReadOutcome read;
     TestScene scene;
     std::vector<DicedGrid> grids;
 
     explicit DicedRib(const std::string& world, const std::string& before_world = "")
-        : read(rib::testing::read_text(
+        : read(read_text(
               "Format 60 60 1 ScreenWindow -12 12 -12 12 Projection \"orthographic\" Clipping 0.01 1000 " +
               before_world + "\nWorldBegin Attribute \"displacementbound\" \"sphere\" 1e4\n" + world +
               "\nWorldEnd\n")) {
@@ -234,7 +234,7 @@ inline void expect_form_everywhere(const std::string& text, const ClosedForm& fo
 inline void expect_no_leaks(const std::string& text, const std::function<V3f(uint32_t)>& inside,
                             int64_t rays = 100'000) {
     SCOPED_TRACE(text);
-    rib::testing::Outcome read = rib::testing::read_text(
+    ReadOutcome read = read_text(
         "Format 96 72 1 Projection \"perspective\" \"fov\" 90 Clipping 0.001 1000\nWorldBegin "
         "Attribute \"displacementbound\" \"sphere\" 1e4 " +
         text + "\nWorldEnd");

@@ -6,6 +6,7 @@
 #include "pipeline/cli/support/exit_codes.h"
 #include "pipeline/cli/support/interrupt.h"
 #include "pipeline/cli/support/read_settings.h"
+#include "pipeline/frame/make_context.h"
 #include "pipeline/frame/make_map.h"
 #include "pipeline/frame/render_frame.h"
 #include "pipeline/rib/read_rib.h"

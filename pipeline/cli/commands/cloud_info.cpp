@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "pipeline/cli/support/exit_codes.h"
-#include "pipeline/frame/render_frame.h"
+#include "pipeline/frame/frame_memory.h"
 #include "shade/clouds/cloud_library.h"
 
 namespace trapeze {

@@ -4,8 +4,9 @@ namespace trapeze {
 namespace {
 
 constexpr RequestNote kRequests[] = {
-    {"AreaLightSource", "sampled over all primitives up to the end of its attributes"},
-    {"Atmosphere", "at visible points; no volume between surfaces"},
+    {"AreaLightSource",
+     "sampled over all primitives up to the end of its attributes, where they are at shutter open"},
+    {"Atmosphere", "at visible points; no volume between the surfaces that a sample of the camera sees"},
     {"Bound", "read; the renderer finds bounds itself"},
     {"Bxdf", "RIS shaders are not run: rissurface, in the Bxdf's colour or texture"},
     {"ColorSamples", "colours are turned into RGB where they are read"},
@@ -17,7 +18,7 @@ constexpr RequestNote kRequests[] = {
     {"EditBegin", "the block is skipped"},
     {"EditWorldBegin", "the block is skipped"},
     {"Exterior",
-     "on rays that leave the surface, as far as the next one; where nothing is hit it does not run"},
+     "on rays of shaders that leave the surface, as far as the next one; where nothing is hit it does not run"},
     {"GeometricApproximation", "motionfactor, focusfactor; flatness is read"},
     {"GeometricRepresentation", "read; all is drawn as it is"},
     {"HierarchicalSubdivisionMesh",
@@ -30,9 +31,12 @@ constexpr RequestNote kRequests[] = {
      "over the finished picture, after filtering; s, t, u and v run from 0 to 1 over the picture; \"glow\" is "
      "built in"},
     {"Integrator", "read; RIS shaders are not run"},
-    {"Interior", "on rays that go in, as far as the next surface; not on what the camera sees through it"},
-    {"Light", "rislight, an area light of the shading language, stands for it"},
-    {"LightFilter", "read; RIS shaders are not run"},
+    {"Interior",
+     "on rays of shaders that go in, as far as the next surface; not on what the camera sees through it"},
+    {"Light",
+     "rislight, an area light of the shading language, stands for it; lightColorMap is for domes alone; at most 64 "
+     "lights of a world shine, further ones are dark, with a warning"},
+    {"LightFilter", "read, and ignored: no light is filtered"},
     {"MakeBump", "as MakeTexture"},
     {"MotionBegin",
      "any number of keys for transforms and geometry; other requests take their values as the shutter opens, "
@@ -75,18 +79,23 @@ constexpr Capability kCapabilities[] = {
     {"Spectral Colors", "supported with limits", "ColorSamples converts to three samples when RIB is read."},
     {"Programmable Shading", "supported",
      "RenderMan Shading Language 3.2: surface, displacement, light, volume and imager shaders."},
-    {"Volume Shading", "supported",
-     "Atmosphere shaders run at visible points, Interior and Exterior along rays of shaders, from surface to surface."},
+    {"Volume Shading", "supported with limits",
+     "Atmosphere shaders run at visible points; there is no volume between the surfaces that a sample of the camera "
+     "sees one behind the other. Interior and Exterior run along rays of shaders, from surface to surface: Interior not "
+     "on what the camera sees through a surface, Exterior not on rays that hit nothing."},
     {"Ray Tracing", "supported",
      "trace(), transmission() and visibility() meet all that Attribute \"visibility\" lets their rays see, at "
      "shutter open or, with Attribute \"trace\" \"samplemotion\", while it is open; gather() tells of hits. They are shaded with their own derivatives. The geometry is diced as "
-     "finely as a pixel is at its distance from the eye. Solids are cut, clipping planes cut the camera's view alone."},
-    {"Global Illumination", "supported",
-     "occlusion() and indirectdiffuse() send rays, or ask point clouds (\"pointbased\"); no photon maps."},
-    {"Area Lights", "supported",
+     "finely as a pixel is at its distance from the eye. Solids are cut, clipping planes cut the camera's view alone. A "
+     "ray looks through at most 4096 transparent surfaces."},
+    {"Global Illumination", "supported with limits",
+     "occlusion() and indirectdiffuse() send rays, or ask point clouds (\"pointbased\"); no photon maps. With point clouds "
+     "walls of one layer leak: of a closed room's light 8 % with \"maxsolidangle\" 0.1, which is the default, 5 % with "
+     "0.01."},
+    {"Area Lights", "supported with limits",
      "AreaLightSource shines from its primitives, sampled anew at each vertex (Attribute \"light\" \"nsamples\"); "
-     "\"arealight\" casts shadows of what transmission rays see. Shaders that do not look at P shine from the middle "
-     "of the first primitive, with a warning."},
+     "\"arealight\" casts shadows of what transmission rays see. Area lights that move stand where they are at shutter "
+     "open. Shaders that do not look at P shine from the middle of the first primitive, with a warning."},
     {"Texture, Environment and Shadow Mapping", "supported",
      "The Make requests and what OpenImageIO reads. Numbers of 8 and 16 bits are as RISpec has them, or by the sRGB "
      "curve where Option \"color\" \"transfer\" or a \"colorspace\" asks for it (docs/colour.md). Files that do not "

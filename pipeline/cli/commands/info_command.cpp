@@ -8,7 +8,7 @@
 #include "pipeline/cli/support/exit_codes.h"
 #include "pipeline/cli/support/interrupt.h"
 #include "pipeline/cli/support/read_settings.h"
-#include "pipeline/frame/stopwatch.h"
+#include "pipeline/frame/cost/stopwatch.h"
 #include "pipeline/rib/read_rib.h"
 
 namespace trapeze {

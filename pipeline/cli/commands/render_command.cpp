@@ -18,10 +18,12 @@
 #include "pipeline/cli/support/read_settings.h"
 #include "pipeline/cli/support/stats_json.h"
 #include "pipeline/cli/support/text_files.h"
+#include "pipeline/frame/cost/stopwatch.h"
+#include "pipeline/frame/frame_memory.h"
+#include "pipeline/frame/make_context.h"
 #include "pipeline/frame/make_map.h"
 #include "pipeline/frame/open_colors.h"
 #include "pipeline/frame/render_frame.h"
-#include "pipeline/frame/stopwatch.h"
 #include "pipeline/frame/write_frame.h"
 #include "pipeline/rib/read_rib.h"
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/frame/render_frame.h"
+#include "pipeline/frame/frame_memory.h"
 #include "pipeline/preview/tev_viewer.h"
 #include "pipeline/preview/web_viewer.h"
 

@@ -43,7 +43,7 @@ WorldOutputs::WorldOutputs(const Arguments& arguments, Access& access, Diagnosti
 
 bool WorldOutputs::prepare(Scene& scene) {
     renamed_.reset();
-    passes_.settle();
+    passes_.write_last();
     const bool is_tile = makes_tile(scene.options);
     if (!arguments_.transfer.empty()) set_transfer(scene.options, arguments_.transfer);
     if (is_shadow_pass(scene.options)) {

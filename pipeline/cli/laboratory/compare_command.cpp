@@ -17,6 +17,7 @@
 #include "pipeline/compare/results_json.h"
 #include "pipeline/compare/table.h"
 #include "pipeline/compare/write_pictures.h"
+#include "pipeline/frame/frame_memory.h"
 #include "pipeline/frame/json_text.h"
 #include "pipeline/frame/version.h"
 #include "pipeline/rib/read_rib.h"

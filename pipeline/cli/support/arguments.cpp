@@ -109,7 +109,7 @@ bool tile_is_right(const Arguments& a, std::string* error) {
 }
 
 /// The environment's word counts as the command line's. False, and why, when it cannot.
-bool settle_safety(Arguments& a, std::string* error) {
+bool choose_safe_mode(Arguments& a, std::string* error) {
     a.safe = a.safe || safe_by_environment();
     if (!a.safe) return true;
     if (a.allow_programs) {
@@ -140,7 +140,7 @@ bool can_be_resumed(const Arguments& a, std::string* error) {
 /// What is wrong with options that are right each by itself; empty: nothing. Also sets what --safe implies.
 std::string contradiction(Arguments& a) {
     std::string error;
-    static_cast<void>(settle_safety(a, &error) && output_is_a_file(a, &error) && has_work(a, &error) &&
+    static_cast<void>(choose_safe_mode(a, &error) && output_is_a_file(a, &error) && has_work(a, &error) &&
                       samplers_are_right(a, &error) && crop_is_right(a, &error) && tile_is_right(a, &error) &&
                       outputs_are_apart(a, &error) && can_be_resumed(a, &error));
     return error;

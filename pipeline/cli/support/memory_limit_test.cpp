@@ -11,6 +11,8 @@
 namespace trapeze {
 namespace {
 
+using testing::kSanitized;
+
 /// As an allocation fails in what must not throw. The process is a copy without the threads of libraries, for
 /// which std::exit() would wait.
 void take(size_t bytes) noexcept {

@@ -18,7 +18,7 @@ constexpr size_t kMostFiles = 12;
 }  // namespace
 
 void PassPictures::keep(const Display& display, const RenderContext& context, Image image) {
-    settle();
+    write_last();
     last_ = std::make_unique<Picture>();
     last_->context = context, last_->image = std::move(image);
     Scene& scene = last_->scene;
@@ -29,7 +29,7 @@ void PassPictures::keep(const Display& display, const RenderContext& context, Im
     scene.options.displays.front() = display;
 }
 
-void PassPictures::settle() {
+void PassPictures::write_last() {
     if (!last_) return;
     const std::unique_ptr<Picture> picture = std::move(last_);
     Display& display = picture->scene.options.displays.front();
@@ -48,7 +48,7 @@ void PassPictures::settle() {
 }
 
 std::optional<std::string> PassPictures::file_of(const std::string& name) {
-    if (last_ && last_->scene.options.displays.front().name == name) settle();
+    if (last_ && last_->scene.options.displays.front().name == name) write_last();
     for (const File& file : files_)
         if (file.name == name) return file.path;
     return {};

@@ -22,7 +22,7 @@ class PassPictures {
     void keep(const Display& display, const RenderContext& context, Image image);
     /// Writes the picture that is in memory to a file: another one is about to be made. One that cannot be
     /// written is not kept.
-    void settle();
+    void write_last();
     /// The file of the picture whose Display has this name; nothing when none is kept.
     std::optional<std::string> file_of(const std::string& name);
     /// Drops the picture of this name: there is a file of that name now.

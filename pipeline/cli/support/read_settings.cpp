@@ -7,7 +7,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "pipeline/frame/render_frame.h"
+#include "pipeline/frame/frame_memory.h"
 #include "pipeline/rib/state/user_defaults.h"
 
 namespace trapeze {

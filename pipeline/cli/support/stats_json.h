@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/frame/frame_stats.h"
+#include "pipeline/frame/cost/frame_stats.h"
 
 namespace trapeze {
 

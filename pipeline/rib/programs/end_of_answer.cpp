@@ -25,6 +25,8 @@ std::optional<size_t> EndOfAnswer::find(std::string_view bytes) {
         } else if (c == '\xc3' && bytes[next_ + 1] == '\xbf') {
             return next_;
         } else if (static_cast<unsigned char>(c) >= 0x80) {
+            // A byte 0377 may be part of an encoded number or string: encoded values are stepped over whole,
+            // by the length that their header tells.
             const std::string_view rest = bytes.substr(next_);
             const EncodedValue value = encoded_value(rest);
             if (value.header > rest.size() || value.length > rest.size()) break;

@@ -16,6 +16,7 @@ class EndOfAnswer {
     std::optional<size_t> find(std::string_view bytes);
 
   private:
+    /// What the next byte is part of. Encoded values are no state of their own: they are taken when whole.
     enum class Within { Text, String, Comment };
 
     size_t next_ = 0;  ///< the first byte not looked at

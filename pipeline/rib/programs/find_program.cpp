@@ -19,7 +19,8 @@ bool is_program(const std::string& path) {
 
 }  // namespace
 
-/// Folders are the scene's search path "procedural"; an empty one is the working folder.
+/// Folders are the scene's search path "procedural"; an empty one is the working folder. A name that is in
+/// none of them is handed on as it is, since posix_spawnp() looks along PATH itself.
 std::string program_path(const std::string& name, const std::vector<std::string>& folders) {
     if (fs::path(name).is_relative())
         for (const std::string& folder : folders) {
@@ -29,6 +30,8 @@ std::string program_path(const std::string& name, const std::vector<std::string>
     return name;
 }
 
+/// Follows the rules of posix_spawnp(): a name with a slash in it is a path, any other is looked for along
+/// PATH, of which an empty part is the working folder.
 bool has_program(const std::string& name, const std::vector<std::string>& folders) {
     const std::string path = program_path(name, folders);
     if (path.find('/') != std::string::npos) return is_program(path);

@@ -16,7 +16,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// False at the end of its output.
+/// False at the end of its output. Called where poll() has said that there is something, or the end: it does
+/// not wait.
 bool read_some(int output, std::string& text) {
     constexpr size_t kReadAtOnce = 65536;
     const size_t old = text.size();
@@ -58,12 +59,16 @@ class Silence {
 
 }  // namespace
 
+/// The two directions wait in one poll(): were the request written first, a program that answers while it
+/// reads would fill its pipe, and both sides would wait for ever. The input counts as written when the
+/// program closes its end; what it then answers is taken all the same.
 ProgramAnswer ask_program(int input, int output, const std::string& request, const AnswerLimits& limits) {
     ProgramAnswer answer;
     EndOfAnswer end;
     size_t sent = 0;
     Silence silence(limits);
     while (true) {
+        // A negative descriptor makes poll() pass over the input once all of the request is sent.
         pollfd waits[] = {{output, POLLIN, 0}, {sent < request.size() ? input : -1, POLLOUT, 0}};
         const int ready = poll(waits, 2, silence.milliseconds_to_wait());
         if (ready == 0 && silence.is_too_long()) {

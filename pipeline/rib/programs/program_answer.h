@@ -13,6 +13,8 @@ struct ProgramAnswer {
     std::string problem;  ///< empty when it is whole
 };
 
+/// When to give up on a program. Silence is measured from its last byte, not from the request: a long answer
+/// may take as long as it likes, as long as something of it comes.
 struct AnswerLimits {
     std::chrono::milliseconds silence{10000};  ///< a program that says nothing for so long does not answer
     size_t most_bytes = size_t{1} << 30;

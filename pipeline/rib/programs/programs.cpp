@@ -29,7 +29,8 @@ using Clock = std::chrono::steady_clock;
 constexpr size_t kMostPrograms = 64;
 constexpr std::chrono::milliseconds kTimeToEnd{500};  ///< after its input is closed
 
-/// Process groups of the programs that this process runs; 0: a free place. A forced end finds them here.
+/// Process groups of the programs that this process runs; 0: a free place. A forced end finds them here. Four
+/// readings at once have room; what finds no place is only missed by a forced end.
 std::array<std::atomic<pid_t>, 4 * kMostPrograms> g_groups;
 
 /// Takes or frees a place without a lock: a signal handler may read at any time.
@@ -40,7 +41,8 @@ void note_group(pid_t from, pid_t to) {
 
 }  // namespace
 
-/// A file's descriptor, closed at the end.
+/// A file's descriptor, closed at the end. Moved by exchange: the one that was held goes to the other, and is
+/// closed with it.
 class Descriptor {
   public:
     explicit Descriptor(int fd = -1) : fd_(fd) {}
@@ -72,6 +74,7 @@ class Programs::Program {
   private:
     void stop(std::chrono::milliseconds time);
 
+    // The number is the child's and its group's alike, as it leads one; -1: not running.
     pid_t pid_ = -1;
     Descriptor input_,
         output_;  ///< the program's; its input is a socket, which can be written without a signal

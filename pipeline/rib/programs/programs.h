@@ -11,6 +11,9 @@
 
 namespace trapeze::rib {
 
+/// One is owned by each reading. Programs are told apart by their whole command line: the same program with
+/// other words runs beside the first, and each keeps between its
+/// requests what it has loaded.
 class Programs {
   public:
     Programs();
@@ -18,6 +21,7 @@ class Programs {
     Programs(const Programs&) = delete;
     Programs& operator=(const Programs&) = delete;
 
+    /// The words of a command line, the program's name first.
     using Command = std::vector<std::string>;
 
     /// Sends a request to the program of a command (no shell). The first request starts the program; its name

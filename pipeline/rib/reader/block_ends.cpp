@@ -9,7 +9,8 @@
 namespace trapeze::rib {
 namespace {
 
-/// What a procedural's block looks like to ReadOptions::on_request: no such request stands in the file.
+/// What a procedural's block looks like to ReadOptions::on_request: no such request stands in the file. It
+/// has the place of the procedural.
 RequestText bare_request(const char* name, SourceLocation at) {
     RequestText request;
     request.name = name, request.at = at;
@@ -26,10 +27,10 @@ std::string still_open(const OpenBlock& block) {
 
 /// A world is a wall for ends of blocks: one AttributeEnd too many in an archive must not close the block
 /// around the world.
-void BlockEnds::end(Block kind) {
+void BlockEnds::end(BlockKind kind) {
     const auto& blocks = state_.blocks();
     const auto begin = std::find_if(blocks.rbegin(), blocks.rend(), [&](const OpenBlock& block) {
-        return block.kind == kind || (block.kind == Block::World && kind != Block::Frame);
+        return block.kind == kind || (block.kind == BlockKind::World && kind != BlockKind::Frame);
     });
     if (begin == blocks.rend() || begin->kind != kind) {
         report_.error(std::string("no ") + block_name(kind) + " is open; ignored");
@@ -42,7 +43,8 @@ void BlockEnds::end(Block kind) {
     close_innermost();
 }
 
-/// Worlds that were never closed are delivered all the same: a file that was cut off shows what it has.
+/// Worlds that were never closed are delivered all the same: a file that was cut off shows what it has. From
+/// the innermost outwards, as their ends would have come.
 void BlockEnds::end_all() {
     while (!state_.blocks().empty()) {
         const OpenBlock& block = state_.blocks().back();
@@ -54,13 +56,13 @@ void BlockEnds::end_all() {
 
 /// The world is delivered before its options are restored; all else follows once the state is what it was.
 void BlockEnds::close_innermost() {
-    const Block kind = state_.blocks().back().kind;
-    if (kind == Block::World) scene_.deliver_world();
+    const BlockKind kind = state_.blocks().back().kind;
+    if (kind == BlockKind::World) scene_.deliver_world();
     state_.close();
-    if (kind == Block::Motion) finish_motion();
-    if (kind == Block::Frame) scene_.end_frame();
-    if (kind == Block::Object) scene_.end_object();
-    if (kind == Block::Solid) scene_.end_solid();
+    if (kind == BlockKind::Motion) finish_motion();
+    if (kind == BlockKind::Frame) scene_.end_frame();
+    if (kind == BlockKind::Object) scene_.end_object();
+    if (kind == BlockKind::Solid) scene_.end_solid();
 }
 
 /// Attributes first: the primitive of the block, if it has one, takes the state as it is then.
@@ -72,11 +74,13 @@ void BlockEnds::finish_motion() {
 
 /// Returns the depth of the block; with its id that tells later whether it is still open.
 size_t BlockEnds::begin_attribute_block() {
-    state_.open(Block::Attribute, report_.at());
+    state_.open(BlockKind::Attribute, report_.at());
     executor_.hands_on(bare_request("AttributeBegin", report_.at()));
     return state_.blocks().size();
 }
 
+/// The id guards against a stream that closes the block itself and opens another at the same depth: that one
+/// is not ours to close.
 void BlockEnds::end_attribute_block(size_t depth, uint64_t id) {
     const auto& blocks = state_.blocks();
     while (blocks.size() > depth && blocks[depth - 1].id == id) {

@@ -20,7 +20,7 @@ class BlockEnds {
 
     /// Closes the innermost block of the kind, and what is still open in it, which is an error each. Ends do
     /// not reach out of a world, but for FrameEnd.
-    void end(Block kind);
+    void end(BlockKind kind);
     /// What is open at the end of the input.
     void end_all();
 
@@ -35,6 +35,7 @@ class BlockEnds {
 
   private:
     void close_innermost();
+    /// Called once the motion block is off the stack, so that what it gathered acts on the state around it.
     void finish_motion();
     size_t begin_attribute_block();
     void end_attribute_block(size_t depth, uint64_t id);

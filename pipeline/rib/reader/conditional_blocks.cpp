@@ -35,7 +35,9 @@ ConditionValue user_value(const std::map<std::string, ParameterList>& lists, con
     return value_of(list->second.find(colon == std::string::npos ? name : name.substr(colon + 1)));
 }
 
-/// Attributes that have requests of their own, by the names of those; others are the user's.
+/// Attributes that have requests of their own, by the names of those; others are the user's. Numbers of the
+/// state itself, and not texts of the file: what a request set, the program's defaults, and later changes
+/// look alike.
 ConditionValue attribute_value(const Attributes& a, const std::string& name) {
     if (name == "Color") return {{a.color.x, a.color.y, a.color.z}, {}};
     if (name == "Opacity") return {{a.opacity.x, a.opacity.y, a.opacity.z}, {}};
@@ -82,7 +84,8 @@ ConditionValue ConditionalBlocks::value_of_variable(const std::string& name) con
     return value;
 }
 
-/// A condition that cannot be understood holds not: what it guards is left out.
+/// A condition that cannot be understood holds not: what it guards is left out. A name that nobody knows is a
+/// warning by itself: a misspelt variable makes a condition false in silence otherwise.
 bool ConditionalBlocks::holds(const std::string& expression) {
     const ConditionResult result =
         evaluate_condition(expression, [this](const std::string& name) { return value_of_variable(name); });
@@ -105,6 +108,8 @@ void ConditionalBlocks::push(std::string_view name, bool is_active) {
     blocks_.push_back({name, report_.at(), is_skipping(), is_active, is_active, false});
 }
 
+/// Within what is skipped a condition is not evaluated: it may name what only the skipped part would have
+/// set, and a message about it would be of no use.
 void ConditionalBlocks::if_begin(const std::string& expression) {
     const bool outer_skips = is_skipping();
     push(kIf, !outer_skips && holds(expression));
@@ -132,7 +137,8 @@ void ConditionalBlocks::if_end() {
     blocks_.pop_back();
 }
 
-/// These blocks nest like conditions that never hold.
+/// These blocks nest like conditions that never hold. The message comes once for a block that is skipped, and
+/// not for those within.
 void ConditionalBlocks::skip_block() {
     for (const SkippedBlock& block : kSkippedBlocks) {
         if (report_.name() == block.begin) {
@@ -149,10 +155,14 @@ void ConditionalBlocks::skip_block() {
     }
 }
 
+/// Conditions of outer streams stay on the stack, where is_skipping() sees them, but are out of reach of the
+/// Else and IfEnd of the inner one.
 size_t ConditionalBlocks::begin_stream() {
     return std::exchange(first_, blocks_.size());
 }
 
+/// A stream that was broken off (cancelled, or ErrorHandler "abort") has open conditions for that reason, so
+/// nothing is said of them.
 void ConditionalBlocks::end_stream(size_t outer, bool is_whole) {
     for (; blocks_.size() > first_; blocks_.pop_back()) {
         if (!is_whole) continue;
@@ -163,6 +173,8 @@ void ConditionalBlocks::end_stream(size_t outer, bool is_whole) {
     first_ = outer;
 }
 
+/// Conditions are left alone: their own grammar has variables, which tell numbers from texts. Run before each
+/// request, so the usual file, without such an option, costs one look at an empty map.
 void ConditionalBlocks::substitute(RequestText& request) const {
     if (state_.options().user.empty() || is_conditional(request.name)) return;
     for (const char* category : {"ribparse", "rib"}) {

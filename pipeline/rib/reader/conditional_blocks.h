@@ -44,6 +44,8 @@ class ConditionalBlocks {
     void substitute(RequestText& request) const;
 
   private:
+    /// One block that is open. Skipped blocks (EditBegin) are conditions too, whose only branch is never
+    /// active.
     struct OpenCondition {
         std::string_view name;  ///< of the request that opened it
         SourceLocation at;
@@ -55,6 +57,8 @@ class ConditionalBlocks {
     bool holds(const std::string& expression);
     void push(std::string_view name, bool is_active);
     OpenCondition& innermost(std::string_view name);
+    /// What a name in a condition, or behind the marker of a substitution, stands for; undefined: nobody set
+    /// it.
     ConditionValue value_of_variable(const std::string& name) const;
 
     RequestReport& report_;

@@ -23,6 +23,7 @@ bool is_readable(const std::string& path, const Access& access) {
 
 }  // namespace
 
+/// Texts that are no files (answers, inline archives) count as part of the file around them.
 std::string OpenFiles::current_file() const {
     for (size_t i = names_.size(); i-- > 0;)
         if (names_[i] != "-" && names_[i][0] != '<') return names_[i];
@@ -49,7 +50,8 @@ void FileSearch::set_search_path(const std::string& category, const std::string&
                           "closed-folder " + folder);
 }
 
-/// The search path comes first: who wrote it meant it.
+/// The search path comes first: who wrote it meant it. Folders that are not there stay in the list: who looks
+/// for a file passes them by.
 std::vector<std::string> FileSearch::folders(const std::string& category) const {
     const auto& paths = state_.options().search_paths;
     const auto path = paths.find(category);
@@ -65,6 +67,9 @@ std::vector<std::string> FileSearch::folders(const std::string& category) const 
     return all;
 }
 
+/// Guesses go from the likely to the far-fetched, and the first that can be read ends the search: a name as
+/// it stands, then without leading folders, then from the folders above, then in the folders that exporters
+/// use.
 std::optional<std::string> FileSearch::find_archive(const std::string& name) {
     if (const auto found = find_archive_named(name)) return found;
     const auto instead = [&](const std::string& found) {

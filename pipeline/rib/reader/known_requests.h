@@ -38,6 +38,7 @@ using RequestHandler =
                  HandlerWith<GeometryContext>, HandlerWith<MapContext>, HandlerWith<StructureContext>,
                  HandlerWith<ConditionalContext>, HandlerWith<ProceduralContext>>;
 
+/// A row of the table, made once and never changed: pointers to it are valid until the program ends.
 struct Request {
     RequestHandler handler;
     RequestGroup group = RequestGroup::Unsupported;  ///< then it is known, and has no handler
@@ -47,10 +48,14 @@ struct Request {
 
 /// Null for unknown names.
 const Request* find_request(std::string_view name);
+
+/// Asked by the parser of words within brackets: a known name there means that the bracket was never closed.
+/// Outside of brackets any word ends the request before it, since RIB has no other mark for that.
 bool is_request(std::string_view name);
 /// All known ones, sorted.
 std::vector<std::string> request_names();
-/// The known request most like a misspelt name, or nothing.
+/// The known request most like a misspelt name, or nothing. Used in messages alone; nothing is carried out
+/// under a guessed name.
 std::string suggestion_for(const std::string& name);
 
 }  // namespace trapeze::rib

@@ -30,7 +30,8 @@ bool has_same_arguments(const RequestText& a, const RequestText& b) {
                                              });
 }
 
-/// Where names or counts differ, the earlier one.
+/// Where names or counts differ, the earlier one. Of Rotate and the like the motion is another matter
+/// (MovingFactor): only held attributes and options come here.
 RequestText between(const RequestText& a, const RequestText& b, float t) {
     RequestText text = a;
     if (!has_same_form(a, b)) return text;
@@ -55,7 +56,7 @@ void MotionCollector::begin(std::vector<float> times) {
     if (!std::isfinite(times.back() - times.front())) throw RequestError{"times are too far apart", {}};
     if (std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) != times.end())
         throw RequestError{"times must grow", {}};
-    state_.open(Block::Motion, report_.at());
+    state_.open(BlockKind::Motion, report_.at());
     block_ = {};
     block_.at = report_.at();
     block_.times = std::move(times);
@@ -76,6 +77,8 @@ void MotionCollector::expect(const std::string& request) {
     if (block_.request != request) throw RequestError{"this is a motion block of " + block_.request, {}};
 }
 
+/// In a motion block the arguments are kept and not the matrix: half-way between two rotations the angle is
+/// to be mixed, which matrices cannot say.
 void MotionCollector::transform(TransformKind kind, TransformArguments arguments) {
     if (!is_open()) {
         state_.current().transform.concat(transform_matrix(kind, arguments));
@@ -86,6 +89,8 @@ void MotionCollector::transform(TransformKind kind, TransformArguments arguments
     block_.transforms.push_back(std::move(arguments));
 }
 
+/// Identity in a motion block is a Transform by the identity matrix, so that both kinds can stand in one
+/// block. The root is put under it as the block ends (concat()).
 void MotionCollector::set_transform(const TransformArguments* matrix) {
     if (is_open()) {
         transform(TransformKind::Matrix,
@@ -123,7 +128,8 @@ RequestText MotionCollector::as_shutter_opens(const std::vector<RequestText>& ke
     return text;
 }
 
-/// Poses are counted against the times: a block that has fewer, or more, stands still.
+/// Poses are counted against the times: a block that has fewer, or more, stands still. One of attributes
+/// alone, or of nothing, has neither transforms nor a primitive, which is no error.
 std::optional<MovingShape> MotionCollector::resolve(MotionBlock block) {
     const size_t given = std::max(block.transforms.size(), block.shapes.size());
     if (given == 0) return {};
@@ -136,7 +142,8 @@ std::optional<MovingShape> MotionCollector::resolve(MotionBlock block) {
     return {};
 }
 
-/// A motion without its full number of times stands still at its first pose.
+/// A motion without its full number of times stands still at its first pose. The limit is one of work: each
+/// moving factor is evaluated at each key of each primitive.
 void MotionCollector::concat(MotionBlock block, bool complete) {
     MovingTransform& transform = state_.current().transform;
     if (block.absolute) transform = state_.root_transform();

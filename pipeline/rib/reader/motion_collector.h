@@ -70,6 +70,7 @@ class MotionCollector {
     std::optional<MovingShape> resolve(MotionBlock block);
 
   private:
+    /// `complete`: there are as many transforms as times.
     void concat(MotionBlock block, bool complete);
     MovingShape resolved_shape(MotionBlock block, bool complete);
 

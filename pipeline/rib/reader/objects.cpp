@@ -10,6 +10,8 @@ namespace {
 /// The most primitives of an object: instances in objects can double them with every line of a file.
 constexpr size_t kMostInObject = size_t{1} << 20;
 
+/// Exact, in the order as well: a list that was set again in another order counts as changed, which does no
+/// harm.
 bool same(const ParameterList& a, const ParameterList& b) {
     if (a.values.size() != b.values.size()) return false;
     for (size_t i = 0; i < a.values.size(); ++i) {
@@ -19,6 +21,7 @@ bool same(const ParameterList& a, const ParameterList& b) {
     return true;
 }
 
+/// Shaders are shared between states and never changed; placing one makes a copy.
 using ShaderPointer = std::shared_ptr<const ShaderInstance>;
 
 /// A shader of the definition, with its layers, where an instance stands.
@@ -31,7 +34,8 @@ ShaderPointer placed_in(const M44f& camera_from_object, const ShaderPointer& sha
 }
 
 /// The instance's attributes, but for those that the definition changed between ObjectBegin and its
-/// primitive. Shaders of the definition are placed with the object.
+/// primitive. Shaders of the definition are placed with the object. States are compared, since nothing
+/// remembers the requests: an attribute that the definition set to the value it had counts as not set.
 std::shared_ptr<AttributeState> instance_attributes(const AttributeState& instance,
                                                     const AttributeState& at_begin,
                                                     const AttributeState& at_primitive,
@@ -76,7 +80,7 @@ std::shared_ptr<AttributeState> instance_attributes(const AttributeState& instan
 /// later which ones it changed.
 void SceneBuilder::begin_object(const std::string& handle) {
     if (object_) throw RequestError{"object definitions do not nest", {}};
-    state_.open(Block::Object, report_.at());
+    state_.open(BlockKind::Object, report_.at());
     AttributeState& attributes = state_.change_attributes();
     attributes.orientation = Orientation::OfInstance, attributes.orientation_reversed = false;
     object_ = std::make_shared<RetainedObject>();
@@ -131,7 +135,8 @@ void SceneBuilder::instance(const std::string& handle) {
 }
 
 /// A primitive of an object with the current transformation: into the scene, or into the object that is being
-/// defined.
+/// defined. Poses at the keys of the shutter are made by the first instance and shared by all, as long as the
+/// shutter stays the same.
 void SceneBuilder::place_instance(ObjectPrimitive& primitive,
                                   const std::shared_ptr<const AttributeState>& attributes, int solid) {
     MovingTransform transform = state_.current().transform;

@@ -15,6 +15,8 @@ class OpenFiles {
     class Entry {
       public:
         Entry(OpenFiles& files, std::string name) : files_(files) { files.names_.push_back(std::move(name)); }
+        /// Entries end in the reverse order of their making, as scopes do: the last name is always this
+        /// one's.
         ~Entry() { files_.names_.pop_back(); }
         Entry(const Entry&) = delete;
         Entry& operator=(const Entry&) = delete;

@@ -22,6 +22,7 @@ bool Procedurals::takes_procedural() {
     return scene_.takes_geometry();
 }
 
+/// The bound that such a request has is not looked at, since nothing is delayed.
 void Procedurals::delayed_archive(const std::string& name) {
     if (!takes_procedural()) return;
     blocks_.within_attribute_block([&] { stream_.read_archive(name); });
@@ -53,7 +54,8 @@ void Procedurals::load_procedural(const std::string& library, const std::string&
     read_answer({"procedural", library, std::move(words)}, data, bound);
 }
 
-/// Strangers' files run nothing unless the user says so.
+/// Strangers' files run nothing unless the user says so. A program that is not there is said even where none
+/// may run: to allow it would not help.
 bool Procedurals::may_run(const Source& source) {
     if (access_.is_confined()) {
         report_.count_unsupported();
@@ -95,6 +97,8 @@ void Procedurals::read_answer(const Source& source, const std::string& data,
     blocks_.within_attribute_block([&] { stream_.read_text(answer.text, {id, 1, 1}); });
 }
 
+/// A program's answer is limited as a file is, and its waiting ends with the reading
+/// (ReadOptions::cancelled).
 ProgramAnswer Procedurals::ask(const Source& source, const std::string& request) {
     AnswerLimits limits;
     limits.silence = std::chrono::milliseconds(static_cast<int64_t>(read_options_.program_seconds * 1000));

@@ -39,6 +39,7 @@ class Procedurals {
                          const std::vector<float>& bound);
 
   private:
+    /// What answers: a program of the scene's, or the host process with a library as its last word.
     struct Source {
         std::string kind, shown;         ///< what messages call it: "program", and the command
         std::vector<std::string> words;  ///< of the command

@@ -30,7 +30,8 @@ bool fits(const Declaration& declaration, size_t numbers, size_t strings) {
     return (is_string ? numbers : strings) == 0 && got > 0 && got % item == 0;
 }
 
-/// One name and value pair, checked against its declaration. A name without a value throws a RequestError.
+/// One name and value pair, checked against its declaration. A name without a value throws a RequestError. A
+/// wrong pair is passed over as a whole, so that the next name is found where it stands.
 class ParameterReader {
   public:
     ParameterReader(RequestReport& report, const GraphicsStateStack& state, ArgumentCursor& cursor,
@@ -46,6 +47,8 @@ class ParameterReader {
         if (cursor_.done()) throw RequestError{in_quotes(token) + " has no value", name_at_};
         if (earlier.values.size() >= kMostParameters)
             throw RequestError{"more than " + std::to_string(kMostParameters) + " parameters", name_at_};
+        // The memory of the arrays is moved, not copied: the text of a request is read once, and its largest
+        // part by far are the points of meshes.
         Argument& value = cursor_.take_here();
         std::vector<float> numbers = value.take_numbers();
         // Several bare numbers may stand for an array of a fixed size (a colour, say).
@@ -153,7 +156,8 @@ ParameterList RequestContext::shader_parameters(ArgumentCursor& cursor) const {
     return list;
 }
 
-/// Shaders run in the space where their request stands ("shader" space).
+/// Shaders run in the space where their request stands ("shader" space). Whether there is such a shader is
+/// found when the world is rendered; the reader needs none.
 ShaderInstance RequestContext::shader(ArgumentCursor& cursor, const char* kind) const {
     ShaderInstance instance;
     instance.name = cursor.string("the shader's name");
@@ -163,6 +167,7 @@ ShaderInstance RequestContext::shader(ArgumentCursor& cursor, const char* kind) 
     return instance;
 }
 
+/// The contexts hand these on, rather than show the whole SceneBuilder: a handler can do what its family may.
 void LightContext::add_light(std::shared_ptr<const LightInstance> light) {
     scene_.add_light(std::move(light));
 }

@@ -32,6 +32,8 @@ enum class FarShape;
 enum class Undeclared { LeaveOut, Guess };
 
 /// What every handler has: messages and counts, and parameter lists, which the current state gives a meaning.
+/// Contexts are made once for each reading and hold references alone, so copying one is cheap and shares all
+/// state.
 class RequestContext {
   public:
     RequestContext(RequestReport& request_report, const GraphicsStateStack& state)

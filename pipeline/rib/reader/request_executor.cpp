@@ -9,7 +9,8 @@
 namespace trapeze::rib {
 namespace {
 
-/// Exporters write objects without points as shapes of an empty "P".
+/// Exporters write objects without points as shapes of an empty "P". Looked for before the handler is called,
+/// which would make an error of it.
 bool has_no_points(const RequestText& text) {
     for (size_t i = 0; i + 1 < text.arguments.size(); ++i) {
         const Argument& name = text.arguments[i];
@@ -22,7 +23,8 @@ bool has_no_points(const RequestText& text) {
     return false;
 }
 
-/// Gives a handler the context that it names.
+/// Gives a handler the context that it names. A visitor: the type of the stored function pointer picks the
+/// member of the tuple, so that a handler with a context that nobody made does not compile.
 struct HandlerCall {
     RequestContexts& contexts;
     ArgumentCursor& cursor;
@@ -83,7 +85,8 @@ void RequestExecutor::execute(RequestText& text) {
     }
 }
 
-/// Not told to ReadOptions::on_request again: that was done where it stood.
+/// Not told to ReadOptions::on_request again: that was done where it stood. Errors are about the first of its
+/// places.
 void RequestExecutor::execute_held(const std::vector<RequestText>& keys, const std::vector<float>& times) {
     const OtherRequest held(report_, keys[0].at, keys[0].name);
     RequestText text = motion_.as_shutter_opens(keys, times);

@@ -40,6 +40,7 @@ class RequestExecutor {
     const ConditionalBlocks& conditions_;
     const SceneBuilder& scene_;
     RequestContexts& contexts_;
+    /// Where the summary counts requests of this name; no search by name for each of a million requests.
     uint64_t& count_of(const Request& request);
 
     /// Of the requests that have come, by their numbers, where the summary counts them; else null.

@@ -10,7 +10,8 @@ namespace {
 constexpr size_t kMostKinds = 200;
 constexpr size_t kMostUnknownRequests = 20;
 
-/// A message without its numbers: files that are wrong in one place are wrong alike in many.
+/// A message without its numbers: files that are wrong in one place are wrong alike in many. Runs of digits
+/// become one mark, as numbers differ in length too.
 std::string kind_of(Severity severity, const std::string& text) {
     std::string kind = severity == Severity::Error ? "error-" : "warning-";
     for (const char c : text)
@@ -23,6 +24,7 @@ std::string kind_of(Severity severity, const std::string& text) {
 
 }  // namespace
 
+/// The kind has the request's name in it, so that a mistake in Color does not hide the same one in Opacity.
 void RequestReport::error(SourceLocation at, const std::string& text) {
     const Severity severity = severity_of_errors();
     say(severity, at.line ? at : at_, text, kind_of(severity, name() + ": " + text));
@@ -49,6 +51,8 @@ void RequestReport::say(Severity severity, SourceLocation at, const std::string&
                             severity == Severity::Error ? "error-further-kinds" : "warning-further-kinds");
 }
 
+/// A name is remembered whole, and reported each time it comes, until there have been too many different
+/// ones: such a file is no RIB, or of another kind of renderer.
 void RequestReport::report_unknown_request(const std::string& name) {
     if (unknown_requests_.size() < kMostUnknownRequests) unknown_requests_.insert(name);
     if (!unknown_requests_.contains(name)) {
@@ -61,12 +65,14 @@ void RequestReport::report_unknown_request(const std::string& name) {
           "; skipped to the next one");
 }
 
+/// Errors before the request that asks for "abort" do not end the reading.
 void RequestReport::set_error_handler(OnError handler) {
     on_error_ = handler;
     errors_before_abort_ = diagnostics_.count(Severity::Error);
 }
 
-/// Asked before each request.
+/// Asked before each request. The error that ends the reading was said before, so this adds why nothing
+/// follows.
 bool RequestReport::must_stop() {
     has_stopped_ = has_stopped_ || (cancelled_ && *cancelled_);
     if (has_stopped_ || on_error_ != OnError::Abort) return has_stopped_;

@@ -55,7 +55,8 @@ class RequestReport {
     /// Counts the request as not needed, since it asks for what is so in any case; `what` says why.
     void count_not_needed(const std::string& what) { ++summary_.not_needed[name() + what]; }
 
-    /// ErrorHandler (RISpec 3): Print is the default.
+    /// ErrorHandler (RISpec 3): Print is the default. Ignore turns errors into warnings, but for limits of
+    /// this renderer; Abort ends the reading before the next request.
     enum class OnError { Print, Ignore, Abort };
     void set_error_handler(OnError handler);
     /// Whether reading ends here: it was cancelled, or ErrorHandler "abort" has met an error, which is said
@@ -68,6 +69,7 @@ class RequestReport {
     Diagnostics& diagnostics() { return diagnostics_; }
 
   private:
+    /// As ErrorHandler has asked last; the handler holds from where it stands in the file.
     Severity severity_of_errors() const {
         return on_error_ == OnError::Ignore ? Severity::Warning : Severity::Error;
     }

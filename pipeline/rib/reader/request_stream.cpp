@@ -32,6 +32,8 @@ std::string canonical(const std::string& path) {
 
 }  // namespace
 
+/// References are kept and not used here: the executor does not exist yet when the stream is made
+/// (RibReader).
 RequestStream::RequestStream(const ReadOptions& options, const Access& access, RequestReport& report,
                              OpenFiles& files, FileSearch& search, ConditionalBlocks& conditions,
                              ArchivePlace& place, RequestExecutor& executor)
@@ -90,6 +92,7 @@ void RequestStream::read_file(const std::string& path, const Access& access) {
     read_text(source->text, {id, 1, 1}, {}, ready.get());
 }
 
+/// Angle brackets keep the name apart from any file's (OpenFiles).
 void RequestStream::read_memory(std::string_view text, const std::string& name) {
     const uint32_t id = report_.diagnostics().add_source("<" + name + ">", {});
     const OpenFiles::Entry entry(files_, "<" + name + ">");
@@ -188,7 +191,9 @@ void RequestStream::record_archive(RequestText& request, Lexer& lexer, std::stri
                                      {}};
 }
 
-/// Recursion is found by names: of files by the one name that each has, whichever way it is reached.
+/// Recursion is found by names: of files by the one name that each has, whichever way it is reached. The
+/// limits count each reading anew, known archives included: ten archives that read the next ten times each
+/// make billions of requests of a few lines.
 bool RequestStream::may_read_archive(const std::string& name, const std::string& key) {
     const char* problem = nullptr;
     const auto is_same = [&](const std::string& open) {
@@ -229,6 +234,8 @@ void RequestStream::read_archive(const std::string& name) {
         read_file(*path, access_);
 }
 
+/// Messages of an inline archive are about the file that defined it, and tell where it was read from: the
+/// same place in the text gets a source of its own for each reading.
 void RequestStream::read_inline_archive(InlineArchive& archive, const std::string& key) {
     if (!archive.ready) archive.ready = std::make_shared<ReadyArchive>(&ready_bytes_left_);
     // Text and requests stay while they are read, whatever is defined under their name meanwhile.

@@ -52,6 +52,8 @@ class RequestStream {
         EncodedNames names;    ///< what was defined before it
         std::shared_ptr<ReadyArchive> ready;
     };
+    /// A file that changes while it is read, as one that a program writes, has another stamp, and is read
+    /// afresh.
     struct KnownFile {
         FileStamp stamp;
         std::shared_ptr<ReadyArchive> ready;

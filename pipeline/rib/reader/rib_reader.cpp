@@ -44,6 +44,7 @@ struct RibReader {
     RibReader(const RibReader&) = delete;
     RibReader& operator=(const RibReader&) = delete;
 
+    // The report's summary is taken out of it: nothing may be read afterwards.
     ReadSummary finish() {
         if (!report.has_stopped()) {  // else what is open is not delivered
             blocks.end_all();
@@ -52,6 +53,8 @@ struct RibReader {
         return std::move(report.summary());
     }
 
+    // The order of the members is that of their making, each after those that it needs; `everything` stands
+    // in where the caller has set no limits.
     Access everything;
     Access& access;
     rib::RequestReport report;
@@ -71,6 +74,8 @@ struct RibReader {
 
 }  // namespace
 
+/// The user's own texts come first and are trusted: the folders that they name for searching are open to the
+/// scene, while those that the scene names are not.
 ReadSummary read_rib(std::span<const std::string> files, const ReadOptions& options, Diagnostics& diagnostics,
                      const std::function<void(Scene&&)>& on_world) {
     RibReader reader(options, diagnostics, on_world);

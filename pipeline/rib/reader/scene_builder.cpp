@@ -52,8 +52,8 @@ std::vector<ShapePointer> only(ShapePointer shape) {
 /// found.
 void SceneBuilder::begin_frame(int number) {
     if (state_.in_world()) throw RequestError{"inside a world", {}};
-    if (state_.is_open(Block::Frame)) throw RequestError{"a frame is open already", {}};
-    state_.open(Block::Frame, report_.at());
+    if (state_.is_open(BlockKind::Frame)) throw RequestError{"a frame is open already", {}};
+    state_.open(BlockKind::Frame, report_.at());
     state_.options().frame = number;
     ++report_.summary().frames;
     frame_is_wanted_ = !read_options_.wants_frame || read_options_.wants_frame(number);
@@ -61,7 +61,7 @@ void SceneBuilder::begin_frame(int number) {
 
 void SceneBuilder::begin_world() {
     if (state_.in_world()) throw RequestError{"a world is open already", {}};
-    state_.open(Block::World, report_.at());
+    state_.open(BlockKind::World, report_.at());
     // Without it, as for shadow maps, all is seen as the shutter opens.
     Options& options = state_.options();
     if (options.hider_parameters.float_or("samplemotion", 1) == 0)
@@ -83,7 +83,8 @@ void SceneBuilder::make_map(MapRequest request) {
     read_options_.on_map(request);
 }
 
-/// Spaces are taken as the shutter opens: shaders know no others.
+/// Spaces are taken as the shutter opens: shaders know no others. The options are moved out of the scope,
+/// whose own are restored right afterwards.
 void SceneBuilder::deliver_world() {
     ++report_.summary().worlds;
     Scope& scope = state_.scope();
@@ -101,7 +102,7 @@ void SceneBuilder::deliver_world() {
         scene_.camera_from_named[name] = M44f(space.at(open));
     for (const char* category : {"archive", "shader", "texture"})
         options.search_paths[category] = search_.folders(category);
-    const bool wanted = frame_is_wanted_ && (state_.is_open(Block::Frame) || !read_options_.wants_frame ||
+    const bool wanted = frame_is_wanted_ && (state_.is_open(BlockKind::Frame) || !read_options_.wants_frame ||
                                              read_options_.wants_frame(options.frame));
     scene_.solids = std::move(solids_.solids);
     scene_.options = std::move(options);
@@ -134,7 +135,8 @@ float SceneBuilder::displacement_length(const AttributeState& state,
 }
 
 /// Attributes as the scene has them; primitives in a row mostly share one set, which is made once.
-/// `mirrored`: the determinant of their space is negative.
+/// `mirrored`: the determinant of their space is negative. A mirrored space, orientation "inside" and
+/// ReverseOrientation turn normals over once each, so that two of them cancel.
 std::shared_ptr<const Attributes> SceneBuilder::resolved_attributes(
     const std::shared_ptr<const AttributeState>& state, const std::vector<M44f>& camera_from_object,
     bool mirrored) {
@@ -159,7 +161,8 @@ std::shared_ptr<const Attributes> SceneBuilder::resolved_attributes(
     return attributes;
 }
 
-/// Adds to what the world takes; false, and an error, when that is too much.
+/// Adds to what the world takes; false, and an error, when that is too much. The count grows even where there
+/// is no room, so that the first primitive beyond the limit ends all that follow, small ones included.
 bool SceneBuilder::has_room(uint64_t bytes) {
     scene_bytes_ += bytes;
     if (scene_bytes_ <= read_options_.most_scene_bytes) return true;
@@ -209,6 +212,8 @@ void SceneBuilder::emit(const std::string& request, std::vector<ShapePointer> sh
     scene_.primitives.push_back(std::move(primitive));
 }
 
+/// False is no error: the caller leaves the primitive out, and one message stands for all of them later
+/// (report_turned_away()).
 bool SceneBuilder::takes_geometry() {
     if (state_.in_world() || object_) return true;
     if (report_.summary().worlds > 0) throw RequestError{"geometry outside of a world", {}};
@@ -216,7 +221,8 @@ bool SceneBuilder::takes_geometry() {
     return false;
 }
 
-/// An input without any world is an archive, which may have geometry where it likes.
+/// An input without any world is an archive, which may have geometry where it likes. What it is can be told
+/// only later: an archive that is read by itself, or a scene with a mistake.
 void SceneBuilder::report_turned_away() {
     if (turned_away_.count == 0) return;
     const std::string count =

@@ -23,6 +23,7 @@ enum class FarShape;
 /// or into the Scene, with the current attributes and at the motion keys of the shutter.
 class SceneBuilder {
   public:
+    /// Called within the reading, once for each world that is wanted; the Scene is the receiver's to keep.
     using OnWorld = std::function<void(Scene&&)>;
 
     /// `place`: where the stream of requests stands. All are kept by reference.
@@ -79,6 +80,7 @@ class SceneBuilder {
     std::shared_ptr<const LightInstance> light(const std::string& handle) const;
 
   private:
+    /// Solids within an object are numbered from 0 there, and get numbers of the scene when it is placed.
     SolidList& solids_here() { return object_ ? object_->solids : solids_; }
     int solid_of_surface(SolidList& list);
     int place_solids(const SolidList& object);
@@ -92,8 +94,12 @@ class SceneBuilder {
     void add_strays(std::vector<std::shared_ptr<const LightInstance>>& lights);
     void light_world();
 
+    /// Else primitives are checked and counted, and their memory is given back at once.
     bool keeps_geometry() const { return read_options_.keep_geometry && frame_is_wanted_; }
+    /// Estimates, since sharing and allocation are not seen exactly: a guard against files made to exhaust
+    /// memory.
     bool has_room(uint64_t bytes);
+    /// Archives that are read a thousand times have one set of points in memory this way, not a thousand.
     ShapePointer shared_or_new(Shape&& shape);
     void add_to_object(std::string request, std::vector<ShapePointer> shapes, std::vector<float> times,
                        SourceLocation at);

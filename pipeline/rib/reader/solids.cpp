@@ -26,7 +26,7 @@ void SceneBuilder::begin_solid(Solid::Operation operation) {
     if (list.open >= 0 &&
         list.solids[static_cast<size_t>(list.open)].operation == Solid::Operation::Primitive)
         throw RequestError{"inside a primitive solid", {}};
-    state_.open(Block::Solid, report_.at());
+    state_.open(BlockKind::Solid, report_.at());
     list.open = list.add(operation, list.open);
 }
 
@@ -54,6 +54,7 @@ int SceneBuilder::place_solids(const SolidList& object) {
     SolidList& list = solids_here();
     const int first = static_cast<int>(list.solids.size());
     for (const Solid& solid : object.solids)
+        // Parents come before their children in a list, so one pass with a shift keeps the tree.
         list.add(solid.operation, solid.parent >= 0 ? solid.parent + first : list.open);
     return first;
 }

@@ -43,6 +43,7 @@ std::shared_ptr<const LightInstance> SceneBuilder::light(const std::string& hand
     return found == state_.scope().lights.end() ? nullptr : found->second;
 }
 
+/// Lights of an object have no handle outside of it, and are counted where they are placed.
 void SceneBuilder::add_world_light(std::shared_ptr<const LightInstance> light) {
     auto& lights = object_ ? object_->lights : state_.scope().ris.lights;
     if (lights.size() >= kMostWorldLights) {

@@ -58,6 +58,8 @@ void shading_interpolation(StateContext& r, ArgumentCursor& c) {
     changeable_attributes(r).smooth_shading = type == "smooth";
 }
 
+/// Matte flag: what hides others but is not seen itself. 1 leaves a hole in colour and alpha, 2 in the colour
+/// alone.
 void matte(StateContext& r, ArgumentCursor& c) {
     changeable_attributes(r).matte = c.integer("the flag", 0, 2);
 }
@@ -87,7 +89,8 @@ void reverse_orientation(StateContext& r, ArgumentCursor&) {
     state.orientation_reversed = !state.orientation_reversed;
 }
 
-/// A name or a matrix, and its step, which may be left out.
+/// A name or a matrix, and its step, which may be left out. A step that is left out is the named basis' own,
+/// or 3 for a matrix.
 CubicBasis read_basis(ArgumentCursor& c, const char* what) {
     CubicBasis basis;
     if (c.next_is_string()) {
@@ -131,7 +134,8 @@ void name_primitives(const GraphicsStateStack& stack, const std::string& name, A
     state.attributes.asset = name, state.asset_block = block;
 }
 
-/// All values are kept for shaders (RISpec: attribute()); those that mean something here are taken too.
+/// All values are kept for shaders (RISpec: attribute()); those that mean something here are taken too. Each
+/// value is counted once: as not needed, as without effect, or not at all where something looks at it.
 void attribute(OptionContext& r, ArgumentCursor& c) {
     const std::string category = c.string("the category");
     const ParameterList values = r.parameters(c, Undeclared::Guess);

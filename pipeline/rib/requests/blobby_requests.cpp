@@ -12,13 +12,15 @@ constexpr int kMostLeaves = 1 << 24;
 constexpr int kFirstOfTwo = 4, kFirstOfOne = 6, kOperators = 8;
 constexpr int kFirstLeaf = 1000, kRepellingPlane = 1003, kImplicitField = 1004;
 
-/// The floats that a leaf of a kind reads; -1: no such kind.
+/// The floats that a leaf of a kind reads; -1: no such kind. An ellipsoid is a matrix; a segment two points,
+/// a radius and a matrix; a plane the four numbers of its bulge.
 int floats_of_leaf(int code) {
     constexpr int kFloats[] = {1, 16, 23, 4};  // constant, ellipsoid, segment, repelling plane
     return code >= kFirstLeaf && code <= kRepellingPlane ? kFloats[code - kFirstLeaf] : -1;
 }
 
-/// Walks over the program and checks that every index is in range.
+/// Walks over the program and checks that every index is in range, so that later stages, which run it at each
+/// point of a field, need not. Operands name earlier results only: a program cannot loop.
 class ProgramCheck {
   public:
     explicit ProgramCheck(const Blobby& blobby) : blobby_(blobby) {}
@@ -67,6 +69,7 @@ class ProgramCheck {
         ++leaves_;
     }
 
+    // 64 bits, as a first index and a count of the file's may overflow 32 when they are added.
     void has_string(int64_t string) const {
         if (string < 0 || string >= static_cast<int64_t>(blobby_.strings.size()))
             throw RequestError{"leaf " + std::to_string(leaves_) + " wants string " + std::to_string(string) +

@@ -12,6 +12,7 @@ bool names_transfer(RequestReport& report, const Parameter& value) {
     return false;
 }
 
+/// A wrong value is taken out of the list, so that later stages do not report it again.
 std::optional<Transfer> colorspace_of(RequestReport& report, ParameterList& parameters) {
     const Parameter* value = parameters.find("colorspace");
     if (!value) return {};

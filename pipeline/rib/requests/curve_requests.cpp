@@ -20,7 +20,8 @@ std::string has_points(int vertices, size_t number) {
     return "curve " + std::to_string(number) + " has " + std::to_string(vertices) + " points";
 }
 
-/// Points beyond the last whole segment are left over, but where the curve closes.
+/// Points beyond the last whole segment are left over, but where the curve closes. A closed curve uses all of
+/// its points, so that one whose number is no multiple of the step has no meaning, and is an error.
 void check_step(GeometryContext& r, const Curves& curves, int vertices, size_t number) {
     if (!curves.cubic || (curves.periodic ? vertices : vertices - 4) % curves.step == 0) return;
     const std::string misfit =
@@ -29,7 +30,9 @@ void check_step(GeometryContext& r, const Curves& curves, int vertices, size_t n
     r.report.warn_once(misfit + "; the rest is left over", "surplus-points");
 }
 
-/// Leaves out curves that have too few points for one segment, unless all have.
+/// Leaves out curves that have too few points for one segment, unless all have. Three masks are kept, since a
+/// curve has one uniform value, one vertex value a point, and for cubics one varying value at each end of a
+/// segment, which is fewer.
 void leave_out_short_curves(GeometryContext& r, Curves& curves, ParameterList& variables) {
     const int least = least_points(curves);
     if (std::all_of(curves.vertices_per_curve.begin(), curves.vertices_per_curve.end(),
@@ -57,7 +60,8 @@ void leave_out_short_curves(GeometryContext& r, Curves& curves, ParameterList& v
     }
 }
 
-/// Counts of points are checked before the points: they say how long the arrays must be.
+/// Counts of points are checked before the points: they say how long the arrays must be. The basis is that of
+/// v, along which RISpec has curves run; it is copied, as the attribute may change afterwards.
 void curves(GeometryContext& r, ArgumentCursor& c) {
     Curves curves;
     const std::string type = c.string("the type");

@@ -36,7 +36,8 @@ void patch(GeometryContext& r, ArgumentCursor& c) {
     add_patches(r, c, "Patch", mesh);
 }
 
-/// n points of a cubic side make (n - 4) / step + 1 patches, n / step where it closes (RISpec 5.2).
+/// n points of a cubic side make (n - 4) / step + 1 patches, n / step where it closes (RISpec 5.2). Points
+/// that fit no step are an error here, unlike those of curves: which of them were meant cannot be told.
 void patch_mesh(GeometryContext& r, ArgumentCursor& c) {
     PatchMesh mesh = mesh_of_type(r, c.string("the type"));
     const auto side = [&](const char* axis, int& n, bool& wraps, int step) {
@@ -104,6 +105,7 @@ void end_turning(GeometryContext& r, Quadric& q) {
     if (q.kind == Quadric::Kind::Torus) q.values[3] = q.values[2] + limited(q.values[3] - q.values[2]);
 }
 
+/// A template over the row, since handlers are plain function pointers, which cannot carry a kind with them.
 template <int kRow>
 void quadric(GeometryContext& r, ArgumentCursor& c) {
     const QuadricRow& row = kQuadrics[kRow];

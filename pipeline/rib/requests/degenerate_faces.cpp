@@ -16,7 +16,9 @@ class FaceCheck {
     FaceCheck(const std::vector<int>& vertices, int vertex_count)
         : vertices_(vertices), vertex_count_(vertex_count), kept_corners_(vertices.size(), 1) {}
 
-    /// The next loop, of so many of the mesh's vertices.
+    /// The next loop, of so many of the mesh's vertices. A loop with an index outside is dropped whole: a
+    /// corner without a point cannot be mended. Corners advance either way, so that loops stay in step with
+    /// the arrays.
     bool keeps_next(int count) {
         const auto first = vertices_.begin() + static_cast<std::ptrdiff_t>(corner_), last = first + count;
         const auto outside =
@@ -116,7 +118,7 @@ void leave_out(RequestReport& report, PolygonMesh& mesh, ParameterList& variable
     keep(variables, check);
 }
 
-/// Tags that name faces name them by their new numbers.
+/// Tags that name faces name them by their new numbers. Creases and corners name points, whose numbers stay.
 void renumber_faces(std::vector<SubdivisionMesh::Tag>& tags, const std::vector<char>& kept) {
     std::vector<int> number(kept.size(), -1);
     int next = 0;
@@ -129,6 +131,8 @@ void renumber_faces(std::vector<SubdivisionMesh::Tag>& tags, const std::vector<c
     }
 }
 
+/// Faces are left out before their topology is built: with a hole where a bad face was, the mesh has a
+/// boundary there, and its neighbours round off as at any other.
 void leave_out(RequestReport& report, SubdivisionMesh& mesh, ParameterList& variables) {
     FaceCheck check(mesh.vertices, mesh.vertex_count);
     for (const int count : mesh.vertices_per_face) check.end_face(check.keeps_next(count));
@@ -142,6 +146,7 @@ void leave_out(RequestReport& report, SubdivisionMesh& mesh, ParameterList& vari
 
 }  // namespace
 
+/// Meshes alone: shapes of other kinds have no lists of corners that could be wrong.
 void leave_out_degenerate_faces(RequestReport& report, Shape& shape) {
     if (auto* polygons = std::get_if<PolygonMesh>(&shape.topology)) {
         const bool has_outlines = std::all_of(polygons->loops_per_polygon.begin(),

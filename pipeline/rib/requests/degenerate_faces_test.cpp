@@ -1,7 +1,7 @@
 /// Meshes with faces that are none: the rest of them is drawn.
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -9,12 +9,12 @@ using ::testing::HasSubstr;
 
 const std::string kPoints = "\"P\" [0 0 0 1 0 0 1 1 0 0 1 0] ";
 
-const PolygonMesh& polygons(const Outcome& r) {
+const PolygonMesh& polygons(const ReadOutcome& r) {
     return std::get<PolygonMesh>(r.primitive().shape().topology);
 }
 
 TEST(WholeFaces, EdgesAndPointsAmongPolygonsAreLeftOut) {
-    const Outcome r =
+    const ReadOutcome r =
         read_world("PointsPolygons [1 3 2 0 4] [0 0 1 2 1 2 0 1 2 3] " + kPoints +
                    "\"uniform float f\" [1 2 3 4 5] "
                    "\"facevarying float[2] g\" [0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19] "
@@ -35,9 +35,10 @@ TEST(WholeFaces, EdgesAndPointsAmongPolygonsAreLeftOut) {
 }
 
 TEST(WholeFaces, APolygonLosesItsHoleOrWithItsOutlineAll) {
-    const Outcome r = read_world("PointsGeneralPolygons [2 2 0] [4 2 1 3] [0 1 2 3 0 1 3 0 1 2] " + kPoints +
-                                 "\"uniform string label\" [\"a\" \"b\" \"c\"] "
-                                 "\"facevarying float f\" [0 1 2 3 4 5 6 7 8 9]");
+    const ReadOutcome r =
+        read_world("PointsGeneralPolygons [2 2 0] [4 2 1 3] [0 1 2 3 0 1 3 0 1 2] " + kPoints +
+                   "\"uniform string label\" [\"a\" \"b\" \"c\"] "
+                   "\"facevarying float f\" [0 1 2 3 4 5 6 7 8 9]");
     EXPECT_EQ(r.messages.size(), 1u);
     ASSERT_EQ(r.count(), 1u);
     EXPECT_THAT(polygons(r).loops_per_polygon, ElementsAre(1));
@@ -46,14 +47,14 @@ TEST(WholeFaces, APolygonLosesItsHoleOrWithItsOutlineAll) {
     const ParameterList& variables = r.primitive().shape().variables;
     EXPECT_THAT(variables.find("f")->floats, ElementsAre(0, 1, 2, 3));
     EXPECT_THAT(variables.find("label")->strings, ElementsAre("a"));
-    const Outcome general =
+    const ReadOutcome general =
         read_world("GeneralPolygon [4 2] \"P\" [0 0 0 1 0 0 1 1 0 0 1 0 .2 .2 0 .3 .3 0]");
     ASSERT_EQ(general.count(), 1u);
     EXPECT_THAT(polygons(general).vertices, ElementsAre(0, 1, 2, 3));
 }
 
 TEST(WholeFaces, FacesOfVerticesThatAreNotThereAreLeftOut) {
-    const Outcome r = read_world("PointsPolygons [3 3 3] [0 1 2 1 2 9 -1 0 1] " + kPoints);
+    const ReadOutcome r = read_world("PointsPolygons [3 3 3] [0 1 2 1 2 9 -1 0 1] " + kPoints);
     EXPECT_THAT(
         r.messages,
         ElementsAre(HasSubstr("error: PointsPolygons: vertex 9 is outside of the 4 points of \"P\"; faces")));
@@ -62,7 +63,7 @@ TEST(WholeFaces, FacesOfVerticesThatAreNotThereAreLeftOut) {
 }
 
 TEST(WholeFaces, HolesOfSubdivisionMeshesKeepTheirFaces) {
-    const Outcome r = read_world(
+    const ReadOutcome r = read_world(
         "SubdivisionMesh \"catmull-clark\" [2 4 1 3] [0 1 0 1 2 3 2 0 2 1] [\"hole\"] [3 0] [0 1 3] [] " +
         kPoints + "\"uniform float f\" [1 2 3 4]");
     EXPECT_THAT(r.messages, ElementsAre(HasSubstr("2 of the faces and holes have fewer than 3 vertices")));
@@ -77,7 +78,7 @@ TEST(WholeFaces, HolesOfSubdivisionMeshesKeepTheirFaces) {
 TEST(WholeFaces, WithoutAWholeFaceThereIsNoMesh) {
     for (const char* request : {"PointsPolygons [2 1] [0 1 2] ", "SubdivisionMesh \"loop\" [2] [0 1] ",
                                 "PointsGeneralPolygons [1 0] [1] [0] ", "PointsPolygons [3] [0 1 4] "}) {
-        const Outcome r = read_world(request + kPoints + kSphere);
+        const ReadOutcome r = read_world(request + kPoints + kSphere);
         ASSERT_EQ(r.messages.size(), 1u) << request;
         EXPECT_THAT(r.messages[0], HasSubstr("error: ")) << request;
         EXPECT_THAT(r.messages[0], HasSubstr("; primitive skipped")) << request;
@@ -86,4 +87,4 @@ TEST(WholeFaces, WithoutAWholeFaceThereIsNoMesh) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

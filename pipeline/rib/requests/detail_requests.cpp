@@ -6,7 +6,8 @@
 namespace trapeze::rib {
 namespace {
 
-/// xmin xmax ymin ymax zmin zmax, in the current space.
+/// xmin xmax ymin ymax zmin zmax, in the current space. A box without thickness is allowed: a plane has a
+/// size on the picture too.
 std::vector<float> box(ArgumentCursor& c) {
     auto v = c.numbers(6, "the bound");
     for (int axis = 0; axis < 3; ++axis)
@@ -60,7 +61,8 @@ void geometric_approximation(StateContext& r, ArgumentCursor& c) {
     }
 }
 
-/// What RISpec calls "primitive" and "smooth": there is one way to draw.
+/// What RISpec calls "primitive" and "smooth": there is one way to draw. Read so that a wrong one is found,
+/// and counted as without effect.
 void geometric_representation(StateContext& r, ArgumentCursor& c) {
     c.string("the type");
     r.report.count_without_effect();

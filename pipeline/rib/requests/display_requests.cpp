@@ -15,6 +15,8 @@ struct Global {
     std::string_view name;
     ValueType type;
 };
+
+/// Cs, Os, P, N, Ng, s and t are not here: they are predeclared, as primitives may have them.
 constexpr Global kGlobals[] = {
     {"Ci", ValueType::Color},    {"Oi", ValueType::Color},    {"u", ValueType::Float},
     {"v", ValueType::Float},     {"du", ValueType::Float},    {"dv", ValueType::Float},
@@ -94,7 +96,8 @@ VariableFilter variable_filter(OptionContext& r, const ParameterList& parameters
     return VariableFilter::Picture;
 }
 
-/// A display of one mode, whose variable and whose channel's parameters it gets.
+/// A display of one mode, whose variable and whose channel's parameters it gets. What the Display says itself
+/// wins over what its channel says.
 Display with_mode(OptionContext& r, Display display, const std::string& mode) {
     display.mode = mode;
     display.variable = variable_named(r, mode);
@@ -141,7 +144,8 @@ void display(OptionContext& r, ArgumentCursor& c) {
     }
 }
 
-/// DisplayChannel declaration parameters: these are defaults of the displays that name the channel.
+/// DisplayChannel declaration parameters: these are defaults of the displays that name the channel. "source"
+/// names another variable of the shader, whose values the channel shows under its own name.
 void display_channel(OptionContext& r, ArgumentCursor& c) {
     const std::string token = c.string("the channel");
     ParameterList parameters = r.parameters(c, Undeclared::Guess);

@@ -9,7 +9,8 @@ namespace {
 
 using Kind = MapRequest::Kind;
 
-/// The filter and its widths, of which there is no use.
+/// The filter and its widths, of which there is no use. They are read all the same, since a request with too
+/// few numbers is a wrong one.
 void take_filter(ArgumentCursor& c, MapRequest& request) {
     request.filter = c.string("the filter");
     c.numbers(2, "the filter's widths");

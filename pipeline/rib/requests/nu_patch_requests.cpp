@@ -11,7 +11,9 @@ namespace {
 /// The degree and one. Higher ones are taken for damage.
 constexpr int kLargestOrder = 32;
 
-/// One direction: the number of points, the order, the knots and the range.
+/// One direction: the number of points, the order, the knots and the range. A spline of n points and order k
+/// has n + k knots, and is a curve from knot k - 1 to knot n alone: outside of these too few basis functions
+/// overlap to sum to 1.
 void read_direction(GeometryContext& r, ArgumentCursor& c, const std::string& axis, int& points, int& order,
                     std::vector<float>& knots, float& begin, float& end) {
     points = c.integer(("the number of points along " + axis).c_str(), 2, kMostPointsAlongSide);
@@ -54,7 +56,8 @@ void nu_patch(GeometryContext& r, ArgumentCursor& c) {
     r.add_shape("NuPatch", std::move(shape), faces);
 }
 
-/// The arrays of a TrimCurve request, and how far they have been read.
+/// The arrays of a TrimCurve request, and how far they have been read. RISpec stores all curves of all loops
+/// one after another; the three places advance together, curve by curve.
 struct TrimArrays {
     std::vector<int> orders, counts;
     std::vector<float> knots, begins, ends, u, v, w;
@@ -121,6 +124,8 @@ TrimCurve next_curve(TrimArrays& a) {
 
 /// Replaces the loops that trim the NuPatches to come; none end it.
 void trim_curve(StateContext& r, ArgumentCursor& c) {
+    // The request has nine arguments; where there is a tenth, the first is a count that follows from the
+    // others.
     if (c.peek(9))
         c.integer("the number of loops", 0, kMostPointsAlongSide);  // some write it before the arrays
     const std::vector<int> curves_of_loops = c.int_array("the numbers of curves");

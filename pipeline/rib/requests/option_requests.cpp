@@ -246,7 +246,9 @@ void imager(OptionContext& r, ArgumentCursor& c) {
     changeable_options(r).imager = is_none ? nullptr : std::move(instance);
 }
 
-/// Hider type parameters: the samples of a path tracer's count where PixelSamples has not been given.
+/// Hider type parameters: the samples of a path tracer's count where PixelSamples has not been given. What it
+/// is called does not choose a method of visibility: that is the command line's, as hiders of other renderers
+/// have names of their own.
 void hider(OptionContext& r, ArgumentCursor& c) {
     Options& o = changeable_options(r);
     o.hider = c.string("the hider's name");
@@ -304,7 +306,9 @@ void pixel_variance(OptionContext& r, ArgumentCursor& c) {
     changeable_options(r).pixel_variance = variance;
 }
 
-/// RISpec 4.1.1: the half space on the side to which the normal points is cut away.
+/// RISpec 4.1.1: the half space on the side to which the normal points is cut away. Normals go with the
+/// inverse transpose of the matrix. The plane is kept in camera space, with a unit normal that points to what
+/// stays.
 void clipping_plane(OptionContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(6, "the plane");
     const V3d point(v[0], v[1], v[2]), normal(v[3], v[4], v[5]);
@@ -332,6 +336,7 @@ void color_samples(OptionContext& r, ArgumentCursor& c) {
     r.state.scope().color_samples = std::move(samples);
 }
 
+/// Options that wait in a motion block are carried out at its end, as attributes are (RequestGroup).
 constexpr RequestRow kOptionRequests[] = {
     {"Format", format},
     {"FrameAspectRatio", frame_aspect_ratio},

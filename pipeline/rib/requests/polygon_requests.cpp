@@ -31,7 +31,8 @@ void expect_length(size_t got, int64_t wanted, const char* what) {
             {}};
 }
 
-/// What is wrong with a tag; empty when nothing is.
+/// What is wrong with a tag; empty when nothing is. RISpec 5.3: a crease is a chain of n vertices with one
+/// sharpness or n - 1, a corner any n vertices with one or n; a hole names faces and has no sharpness.
 std::string problem_of(const SubdivisionMesh::Tag& tag, const SubdivisionMesh& mesh) {
     const bool crease = tag.name == "crease", corner = tag.name == "corner", hole = tag.name == "hole";
     if (!crease && !corner && !hole) return {};
@@ -47,7 +48,8 @@ std::string problem_of(const SubdivisionMesh::Tag& tag, const SubdivisionMesh& m
     return {};
 }
 
-/// A wrong tag costs itself. Tags of unknown names are kept for later stages to pass over.
+/// A wrong tag costs itself. Tags of unknown names are kept for later stages to pass over. Before faces are
+/// left out, as tags name faces by the file's numbers.
 void check_tags(GeometryContext& r, SubdivisionMesh& mesh) {
     std::erase_if(mesh.tags, [&](const SubdivisionMesh::Tag& tag) {
         const std::string problem = problem_of(tag, mesh);
@@ -66,7 +68,8 @@ uint64_t face_count(const SubdivisionMesh& mesh) {
     return mesh.vertices_per_face.size();
 }
 
-/// Reads the variables of a mesh whose points are counted by its "P".
+/// Reads the variables of a mesh whose points are counted by its "P". The vertex count is that of "P", not
+/// the largest index and one: points that no face uses still have values of class vertex.
 template <class Mesh>
 void add_mesh(GeometryContext& r, ArgumentCursor& c, const char* request, Mesh mesh) {
     if (face_count(mesh) == 0) throw RequestError{"has no faces", {}};
@@ -80,7 +83,8 @@ void add_mesh(GeometryContext& r, ArgumentCursor& c, const char* request, Mesh m
     r.add_shape(request, std::move(shape), faces);
 }
 
-/// One polygon of consecutive points.
+/// One polygon of consecutive points. Polygon and GeneralPolygon become meshes of one face, so that later
+/// stages know one kind of polygon.
 PolygonMesh consecutive(std::vector<int> loops) {
     PolygonMesh mesh;
     mesh.loops_per_polygon = {static_cast<int>(loops.size())};
@@ -103,7 +107,8 @@ void polygon(GeometryContext& r, ArgumentCursor& c) {
     r.add_shape("Polygon", std::move(shape), 1);
 }
 
-/// GeneralPolygon [vertices of each loop] parameters: an outline, then holes, of consecutive points.
+/// GeneralPolygon [vertices of each loop] parameters: an outline, then holes, of consecutive points. Unlike a
+/// mesh of many it is an error when the outline is none, as nothing is left to draw.
 void general_polygon(GeometryContext& r, ArgumentCursor& c) {
     std::vector<int> loops = c.int_array("the loops");
     const int64_t sum = checked_sum(loops, 0, "a loop");
@@ -146,6 +151,8 @@ void points_general_polygons(GeometryContext& r, ArgumentCursor& c) {
 }
 
 /// Tags, numbers of their arguments (two or, with strings, three for each tag), integers, floats, strings.
+/// The arguments of all tags stand one after another in three common arrays; each tag takes its next ones
+/// from each of them.
 std::vector<SubdivisionMesh::Tag> subdivision_tags(ArgumentCursor& c) {
     const std::vector<std::string> names = c.string_array("the tags");
     const std::vector<int> counts = c.int_array("the tags' numbers of arguments");

@@ -5,6 +5,8 @@
 namespace trapeze::rib {
 namespace {
 
+/// A variable whose type RISpec fixes, with what it holds; the storage class is the scene's to
+/// choose, but for points.
 struct StandardVariable {
     std::string_view name;
     ValueType type;
@@ -27,7 +29,8 @@ void remove(ParameterList& list, std::string_view name) {
     std::erase_if(list.values, [&](const Parameter& p) { return p.name == name; });
 }
 
-/// Later stages know RISpec's variables by name: scenes may not declare them as something else.
+/// Later stages know RISpec's variables by name: scenes may not declare them as something else. A type with
+/// as many floats will do (a vector for N): the numbers are the same, and the standard type is set.
 void check_types(RequestReport& report, ParameterList& list) {
     std::erase_if(list.values, [&](Parameter& p) {
         for (const StandardVariable& standard : kStandard) {
@@ -45,7 +48,8 @@ void check_types(RequestReport& report, ParameterList& list) {
     });
 }
 
-/// Surfaces have s and t; "st" is a pair of them for each item.
+/// Surfaces have s and t; "st" is a pair of them for each item. With an "s" or a "t" beside it, the one that
+/// comes first in the list counts, as with any name that is given twice.
 void split_st(RequestReport& report, ParameterList& list) {
     const Parameter* st = list.find("st");
     if (!st) return;
@@ -84,7 +88,7 @@ Parameter divided_by_weights(const Parameter& pw) {
     return p;
 }
 
-/// "P" wins over "Pw", that over "Pz".
+/// "P" wins over "Pw", that over "Pz". Weights are kept for patches alone, which are rational with them.
 void choose_points(RequestReport& report, ParameterList& list, PointForm form) {
     const auto leave_out = [&](const char* name) {
         if (!list.find(name)) return;
@@ -125,7 +129,8 @@ void expand_pz(ParameterList& list, const Topology& topology) {
     list.set(std::move(p));
 }
 
-/// Another class that wants as many values of the shape as there are.
+/// Another class that wants as many values of the shape as there are. Where classes want equally many, the
+/// first of the list is taken.
 std::optional<StorageClass> class_of_count(size_t count, const VariableCounts& counts) {
     if (count == 1) return StorageClass::Constant;
     for (const auto storage :
@@ -163,6 +168,8 @@ bool fit_to_shape(RequestReport& report, Parameter& p, const VariableCounts& cou
 
 }  // namespace
 
+/// First of two steps: types, and which points count, do not depend on the shape; counts do
+/// (checked_variables), and polygons learn theirs from the points read here.
 ParameterList read_variables(RequestContext& context, ArgumentCursor& cursor, PointForm form) {
     ParameterList list = context.parameters(cursor);
     if (list.values.empty()) return list;
@@ -177,6 +184,7 @@ ParameterList read_variables_with_points(RequestContext& context, ArgumentCursor
     return list;
 }
 
+/// At most one of the three is left in a list by choose_points().
 int point_count_of(const ParameterList& list) {
     for (const char* name : {"P", "Pw", "Pz"})
         if (const Parameter* p = list.find(name))

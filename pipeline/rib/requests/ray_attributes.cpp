@@ -28,6 +28,8 @@ void set_old_transmission(const std::string& seen_as, RayAttributes& rays) {
     rays.transmission_hits = seen_as == "shader" ? HitMode::Shader : HitMode::Primitive;
 }
 
+/// The three kinds of rays that can see a surface have a flag each; the older "trace" sets the two of
+/// reflections and of gathered light together.
 void set_visibility(const Parameter& value, RayAttributes& rays) {
     if (value.name == "transmission" && value.is_string())
         return set_old_transmission(value.strings.empty() ? "" : value.strings[0], rays);
@@ -37,6 +39,8 @@ void set_visibility(const Parameter& value, RayAttributes& rays) {
     if (value.name == "transmission") rays.transmission = is_on;
 }
 
+/// Who answers for what a ray hits: its shader, which is run there, or the primitive's own Color and Opacity.
+/// Every word but "primitive" means the shader.
 void set_hit_mode(std::string_view name, std::string_view text, RayAttributes& rays) {
     const HitMode mode = text == "primitive" ? HitMode::Primitive : HitMode::Shader;
     if (name == "transmissionhitmode") rays.transmission_hits = mode;
@@ -46,6 +50,8 @@ void set_hit_mode(std::string_view name, std::string_view text, RayAttributes& r
 
 }  // namespace
 
+/// Values that nothing here knows change nothing; they are counted where attributes are
+/// (recognises_attribute()).
 void set_ray_attribute(std::string_view category, const Parameter& value, RayAttributes& rays) {
     if (category == "visibility") set_visibility(value, rays);
     // BMRT's: a bit for the camera, one for reflections, one for shadows.

@@ -3,7 +3,7 @@
 
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 using ::testing::IsEmpty;
@@ -11,7 +11,7 @@ using HitMode = RayAttributes::HitMode;
 
 /// Rays of a sphere behind the requests, of which nothing is said and which all have an effect.
 RayAttributes rays_after(const std::string& requests) {
-    const Outcome outcome = read_world(requests + " " + kSphere);
+    const ReadOutcome outcome = read_world(requests + " " + kSphere);
     EXPECT_THAT(outcome.messages, IsEmpty()) << requests;
     EXPECT_THAT(outcome.summary.without_effect, IsEmpty()) << requests;
     return outcome.attributes().rays;
@@ -51,6 +51,16 @@ TEST(RayAttributes, VisibilityIsByKind) {
     }
     EXPECT_EQ(seen_by("Attribute \"visibility\" \"int diffuse\" 1 \"int specular\" [1] \"transmission\" 1"),
               "DST");
+}
+
+/// There are no photon maps: that it is not seen by photons is so in any case, and no message.
+TEST(RayAttributes, VisibilityForPhotonsIsTaken) {
+    for (const char* value : {"\"int photon\" [1]", "\"photon\" 0", "\"string photon\" \"Cs\""}) {
+        EXPECT_EQ(seen_by(std::string("Attribute \"visibility\" \"int specular\" 1 ") + value), "S") << value;
+        const ReadOutcome outcome =
+            read_world(std::string("Attribute \"visibility\" ") + value + " " + kSphere);
+        EXPECT_EQ(outcome.summary.not_needed.size(), 1u) << value;
+    }
 }
 
 TEST(RayAttributes, TransmissionWasATextOnce) {
@@ -134,7 +144,7 @@ TEST(RayAttributes, TraceHasNumbers) {
 }
 
 TEST(RayAttributes, BlocksRestoreThem) {
-    const Outcome outcome =
+    const ReadOutcome outcome =
         read_world("AttributeBegin Attribute \"visibility\" \"trace\" 1 Attribute \"trace\" \"bias\" 1 " +
                    kSphere + "AttributeEnd " + kSphere);
     EXPECT_TRUE(outcome.attributes(0).rays.seen());
@@ -145,7 +155,7 @@ TEST(RayAttributes, BlocksRestoreThem) {
 
 TEST(RayAttributes, ObjectsKeepTheirOwnAndTakeTheRest) {
     const std::string seen = "Attribute \"visibility\" \"specular\" 1 ";
-    const Outcome outcome =
+    const ReadOutcome outcome =
         read_world("ObjectBegin 1 " + seen + kSphere + "ObjectEnd ObjectBegin 2 " + kSphere +
                    "ObjectEnd ObjectInstance 1 ObjectInstance 2 " + seen + "ObjectInstance 2");
     ASSERT_EQ(outcome.count(), 3u);
@@ -156,7 +166,7 @@ TEST(RayAttributes, ObjectsKeepTheirOwnAndTakeTheRest) {
 
 TEST(RayOptions, DepthHasABound) {
     const auto depth = [](const std::string& value) {
-        const Outcome outcome =
+        const ReadOutcome outcome =
             read_text("Option \"trace\" \"int maxdepth\" [" + value + "] WorldBegin " + kSphere + "WorldEnd");
         EXPECT_THAT(outcome.messages, IsEmpty());
         EXPECT_THAT(outcome.summary.without_effect, IsEmpty());
@@ -170,4 +180,4 @@ TEST(RayOptions, DepthHasABound) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

@@ -80,12 +80,15 @@ class RequestIndex {
     std::array<const Request*, kSlots> slots_{};
 };
 
+/// Made when the first request is looked up, by whichever thread does: initialisation of such a static is
+/// safe among threads.
 const RequestIndex& request_index() {
     static const RequestIndex index;
     return index;
 }
 
-/// Levenshtein's distance; letters that differ in case are equal.
+/// Levenshtein's distance; letters that differ in case are equal. One row of the usual table is kept: each
+/// entry needs the one above, the one to the left and their corner.
 int distance(std::string_view a, std::string_view b) {
     std::vector<int> row(b.size() + 1);
     for (size_t j = 0; j <= b.size(); ++j) row[j] = static_cast<int>(j);
@@ -111,6 +114,7 @@ const Request* find_request(std::string_view name) {
     return request_index().find(name);
 }
 
+/// Sorted, as the map is; a request's number is its place in this list (Request::number).
 std::vector<std::string> request_names() {
     std::vector<std::string> names;
     for (const auto& [name, request] : table()) names.push_back(name);

@@ -8,7 +8,8 @@
 
 namespace trapeze::rib {
 
-/// A request's name as RIB writes it, and its handler.
+/// A request's name as RIB writes it, and its handler. Rows stay as plain data in the program; the table is
+/// made of them when it is first asked for.
 struct RequestRow {
     const char* name;
     RequestHandler handler;

@@ -53,7 +53,9 @@ Argument number(double value, SourceLocation at) {
     return argument;
 }
 
-/// Calls the handler of a request, which is one of an option or an attribute.
+/// Calls the handler of a request, which is one of an option or an attribute. An OptionContext is a
+/// StateContext too, so handlers of both families can be called with it; no value of the table belongs to
+/// another family.
 void execute(std::string_view request, OptionContext& context, ArgumentCursor& cursor) {
     std::visit(
         [&](auto handler) {
@@ -64,7 +66,8 @@ void execute(std::string_view request, OptionContext& context, ArgumentCursor& c
 }
 
 /// Sets PixelFilterName or PixelFilterWidth, each of which is half of a PixelFilter request: the other half
-/// stays. False for another name.
+/// stays. False for another name. A value of the wrong kind or length is not taken, and is then counted as
+/// one without effect.
 bool execute_filter(OptionContext& context, const Parameter& value) {
     PixelFilter filter = context.state.options().filter;
     if (value.name == "PixelFilterName" && value.strings.size() == 1)

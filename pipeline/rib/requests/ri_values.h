@@ -6,7 +6,8 @@
 
 namespace trapeze::rib {
 
-/// Executes the request that sets the value; false when there is none.
+/// Executes the request that sets the value; false when there is none. A value that its request does not
+/// accept ends the Option or Attribute request around it with a RequestError.
 bool execute_ri_value(OptionContext& context, const Parameter& value);
 
 }  // namespace trapeze::rib

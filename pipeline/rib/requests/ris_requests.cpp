@@ -24,7 +24,8 @@ void set_color(ShaderInstance& shader, const char* name, const V3f& v) {
     if (v.x != 0 || v.y != 0 || v.z != 0) set_triple(shader, name, ValueType::Color, v);
 }
 
-/// The shader that shows a look; its colour is Cs.
+/// The shader that shows a look; its colour is Cs. Both shaders are the renderer's own; parameters at their
+/// defaults are left out.
 void show(const RisLook& look, ShaderInstance& shader) {
     shader.name = look.is_constant ? "constant" : "rissurface";
     if (look.is_constant) return;
@@ -39,7 +40,8 @@ void show(const RisLook& look, ShaderInstance& shader) {
     set_number(shader, "scalet", look.scale_t);
 }
 
-/// Exporters describe a material once, and name it by its id alone on every object that has it.
+/// Exporters describe a material once, and name it by its id alone on every object that has it. A Bxdf with
+/// parameters besides the id defines it anew.
 RisLook known_look(RisNetwork& network, const std::string& shader, const RisParameters& parameters) {
     const std::string id = parameters.text("__materialid");
     const auto known = network.materials.find(id);
@@ -87,6 +89,7 @@ void skip(LightContext& r, ArgumentCursor& c) {
     note(r);
 }
 
+/// Structure, as far as motion blocks go: a Bxdf within one is carried out at once.
 constexpr RequestRow kRisRequests[] = {
     {"Bxdf", bxdf},       {"Pattern", pattern}, {"Light", light},        {"LightFilter", skip},
     {"Integrator", skip}, {"Displace", skip},   {"DisplayFilter", skip}, {"SampleFilter", skip},
@@ -94,6 +97,8 @@ constexpr RequestRow kRisRequests[] = {
 
 }  // namespace
 
+/// A mesh light is handed on before its shape is known: the emitter in the attributes shares it, and fills it
+/// in when the first primitive comes (SceneBuilder::place_emitter).
 void add_ris_light(LightContext& r, const std::string& handle, const ShaderInstance& shader,
                    const RisParameters& parameters, bool is_area_light) {
     const auto lighting = r.state.attributes().attributes.user.find("lighting");
@@ -116,6 +121,7 @@ void add_ris_light(LightContext& r, const std::string& handle, const ShaderInsta
     r.add_world_light(std::move(light));
 }
 
+/// An attribute that is there and wrong is said, and the next name is tried.
 int light_samples(const LightContext& r) {
     const auto& user = r.state.attributes().attributes.user;
     const auto of_lights = user.find("light");

@@ -8,7 +8,9 @@
 
 namespace trapeze::rib {
 
-/// Keeps those runs of `item` values whose place in `kept` is not 0, in their order.
+/// Keeps those runs of `item` values whose place in `kept` is not 0, in their order. In place: what stays
+/// moves towards the front, never past what has not been read. `values` holds `item` of them for each element
+/// of `kept`.
 template <class Value>
 void select_values(std::vector<Value>& values, const std::vector<char>& kept, size_t item = 1) {
     size_t to = 0;

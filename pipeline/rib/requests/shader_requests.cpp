@@ -34,6 +34,8 @@ ShaderMember layered_kind(ArgumentCursor& c, std::string& kind) {
 }
 
 /// ShaderLayer type name layer parameters: a layer after those there are, or in the place of one of its name.
+/// The last layer's instance holds those before it, with the connections of all; the attributes keep the last
+/// alone.
 void shader_layer(LightContext& r, ArgumentCursor& c) {
     constexpr size_t kMostLayers = 64;
     std::string kind;
@@ -58,7 +60,8 @@ void shader_layer(LightContext& r, ArgumentCursor& c) {
     current = std::move(instance);
 }
 
-/// ConnectShaderLayers type layer variable layer variable.
+/// ConnectShaderLayers type layer variable layer variable. Whether there are such layers and variables is
+/// found when the shaders are loaded.
 void connect_shader_layers(LightContext& r, ArgumentCursor& c) {
     std::string kind;
     const ShaderMember where = layered_kind(c, kind);
@@ -69,6 +72,8 @@ void connect_shader_layers(LightContext& r, ArgumentCursor& c) {
     connection.to_variable = c.string("its variable");
     std::shared_ptr<const ShaderInstance>& current = changeable_attributes(r).*where;
     if (!current || current->layer.empty()) throw RequestError{"there are no layers to connect", {}};
+    // Instances are shared with states that were saved and primitives that were made: they are copied, not
+    // changed.
     auto connected = std::make_shared<ShaderInstance>(*current);
     connected->connections.push_back(std::move(connection));
     current = std::move(connected);
@@ -116,7 +121,8 @@ void area_light_source(LightContext& r, ArgumentCursor& c) {
     r.state.change_attributes().emitter = std::move(emitter);
 }
 
-/// A light that was once named is no stray any more, on or off (SceneBuilder::add_strays).
+/// A light that was once named is no stray any more, on or off (SceneBuilder::add_strays). The order of the
+/// list is that in which lights were switched on, and of their sums.
 void illuminate(LightContext& r, ArgumentCursor& c) {
     const std::string handle = c.handle("the light's handle");
     const bool on = c.done() || c.number("0 or 1") != 0;

@@ -6,7 +6,8 @@
 namespace trapeze::rib {
 namespace {
 
-/// RISpec 5.7; "primitive" is the one that geometry may stand in.
+/// RISpec 5.7; "primitive" is the one that geometry may stand in. Another word leaves the block closed, so
+/// that its SolidEnd is an error too.
 Solid::Operation operation_of(ArgumentCursor& c) {
     const std::string name = c.string("the operation");
     if (name == "primitive") return Solid::Operation::Primitive;
@@ -19,7 +20,7 @@ Solid::Operation operation_of(ArgumentCursor& c) {
 /// SolidBegin "operation" and SolidEnd.
 constexpr RequestRow kSolidRequests[] = {
     {"SolidBegin", [](StructureContext& r, ArgumentCursor& c) { r.scene.begin_solid(operation_of(c)); }},
-    {"SolidEnd", [](StructureContext& r, ArgumentCursor&) { r.blocks.end(Block::Solid); }},
+    {"SolidEnd", [](StructureContext& r, ArgumentCursor&) { r.blocks.end(BlockKind::Solid); }},
 };
 
 }  // namespace

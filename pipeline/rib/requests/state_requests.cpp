@@ -5,7 +5,8 @@
 namespace trapeze::rib {
 namespace {
 
-/// "attributes" are saved and restored. Of the subsets of PRMan's, "transform" and all others are told apart.
+/// "attributes" are saved and restored. Of the subsets of PRMan's, "transform" and all others are told apart:
+/// of several names, with commas, the attributes are restored, and the transformation if it is one of them.
 void resource(StateContext& r, ArgumentCursor& c) {
     const std::string name = c.handle("the resource's name"), type = c.string("the type");
     const ParameterList parameters = r.parameters(c, Undeclared::Guess);
@@ -27,7 +28,8 @@ void resource(StateContext& r, ArgumentCursor& c) {
     }
 }
 
-/// RISpec's handlers by their names; others, which only a program could have, are passed over.
+/// RISpec's handlers by their names; others, which only a program could have, are passed over. Holds from
+/// here to the end of the reading: no block restores it.
 void error_handler(StateContext& r, ArgumentCursor& c) {
     const std::string name = c.string("the handler");
     r.parameters(c, Undeclared::Guess);

@@ -9,7 +9,7 @@ namespace trapeze::rib {
 namespace {
 
 /// A request of so many numbers, which is multiplied to the current transformation or collected by a motion
-/// block.
+/// block. Kinds and counts are template arguments since a row of the table holds a plain function pointer.
 template <TransformKind kKind, size_t kCount>
 void concat(TransformContext& r, ArgumentCursor& c) {
     r.motion.transform(kKind, c.numbers(kCount, "the transformation"));
@@ -22,7 +22,8 @@ void perspective(TransformContext& r, ArgumentCursor& c) {
     r.motion.transform(TransformKind::Perspective, fov);
 }
 
-/// Rotate angle dx dy dz: degrees about an axis through the origin.
+/// Rotate angle dx dy dz: degrees about an axis through the origin. In a motion block such a pose is mixed
+/// with others number by number, the axis included.
 void rotate(TransformContext& r, ArgumentCursor& c) {
     std::vector<float> v = c.numbers(4, "the transformation");
     if (v[1] == 0 && v[2] == 0 && v[3] == 0) {

@@ -6,7 +6,7 @@
 namespace trapeze::rib {
 
 /// Whether the next word is "periodic". Others than RISpec's two leave the shape open: it is drawn all the
-/// same.
+/// same. Periodic: the last point is followed by the first.
 inline bool takes_periodic(RequestReport& report, ArgumentCursor& c) {
     const std::string wrap = c.string("the wrap mode");
     if (wrap != "periodic" && wrap != "nonperiodic")

@@ -15,7 +15,8 @@ bool contains(std::string_view text, std::string_view part) {
     return text.find(part) != std::string_view::npos;
 }
 
-/// Radiance that a light's colour, intensity and exposure (stops: powers of 2) make.
+/// Radiance that a light's colour, intensity and exposure (stops: powers of 2) make. The exposure is clamped
+/// so that a damaged one makes a very bright light and not an infinite one.
 V3f power(const RisParameters& p, float default_intensity = 1) {
     const float scale = p.number_or("intensity", default_intensity) *
                         portable::exp2(std::clamp(p.number_or("exposure", 0), -64.0f, 64.0f));
@@ -88,7 +89,8 @@ float half_angle(float degrees) {
     return std::clamp(degrees, 0.0f, 180.0f) * (std::numbers::pi_v<float> / 360);
 }
 
-/// A light near by, whose normalized form does not shine more when it is larger.
+/// A light near by, whose normalized form does not shine more when it is larger. Numbers are clamped to what
+/// the shader can work with: they come from files of other programs.
 std::shared_ptr<LightInstance> of_shape(const std::string& handle, const ShaderInstance& from,
                                         const RisParameters& p, LightShape::Kind kind, int samples) {
     auto light = make(handle, from, power(p), kind, samples);
@@ -158,6 +160,7 @@ bool is_mesh_light(std::string_view shader, bool is_area_light) {
     return is_area_light && contains(shader, "AreaLight");
 }
 
+/// On which sides it shines is open until its shape comes (place_mesh_light()).
 std::shared_ptr<LightInstance> mesh_light(const std::string& handle, const ShaderInstance& shader,
                                           const RisParameters& parameters, int samples) {
     return of_shape(handle, shader, parameters, LightShape::Kind::Mesh, samples);
@@ -170,6 +173,8 @@ void place_mesh_light(LightInstance& light, const Shape& shape) {
     light.shape->two_sided = std::min({size.x, size.y, size.z}) <= 0.01f * std::max({size.x, size.y, size.z});
 }
 
+/// The colour is that which mesh_light() has computed from intensity and exposure; a disk of a known angle
+/// takes that for its radiance, and lights by its share of the sky.
 std::shared_ptr<LightInstance> far_light(const LightInstance& light, FarShape shape,
                                          const M44f& camera_from_shape, float angle) {
     ShaderInstance from = light.shader;
@@ -198,6 +203,8 @@ V3f middle_of(const Shape& shape) {
     return (box.low + box.high) * 0.5f;
 }
 
+/// Told by parts of the names: the plugins of all versions have theirs in common (PxrStdEnvMapLight,
+/// PxrDomeLight).
 std::shared_ptr<LightInstance> ris_light(const std::string& handle, const ShaderInstance& shader,
                                          const RisParameters& p, int samples) {
     using Kind = LightShape::Kind;
@@ -225,7 +232,7 @@ std::shared_ptr<LightInstance> ris_light(const std::string& handle, const Shader
     return {};
 }
 
-/// A light of RSL, which casts no shadows.
+/// A light of RSL, which casts no shadows. Camera space, along z: it has no transformation of its own.
 std::shared_ptr<const LightInstance> headlight() {
     auto light = std::make_shared<LightInstance>();
     light->shader.name = "distantlight";

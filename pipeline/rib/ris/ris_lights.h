@@ -21,7 +21,8 @@ std::shared_ptr<LightInstance> ris_light(const std::string& handle, const Shader
                                          const RisParameters& parameters,
                                          int samples = LightShape::kDefaultSamples);
 
-/// Shines from the geometry that follows it.
+/// Shines from the geometry that follows it. `is_area_light`: the request was AreaLightSource, whose lights
+/// always do.
 bool is_mesh_light(std::string_view shader, bool is_area_light);
 std::shared_ptr<LightInstance> mesh_light(const std::string& handle, const ShaderInstance& shader,
                                           const RisParameters& parameters,
@@ -30,7 +31,8 @@ std::shared_ptr<LightInstance> mesh_light(const std::string& handle, const Shade
 void place_mesh_light(LightInstance& light, const Shape& shape);
 
 /// Geometry "envsphere" and "distantlight": what a mesh light of them shines as. Angle: that which the
-/// distant one takes in the sky, in degrees; 0 if unknown.
+/// distant one takes in the sky, in degrees; 0 if unknown. Neither has a place or a size: a dome shines from
+/// all around, a direction like the sun.
 enum class FarShape { Dome, Direction };
 std::shared_ptr<LightInstance> far_light(const LightInstance& light, FarShape shape,
                                          const M44f& camera_from_shape, float angle);

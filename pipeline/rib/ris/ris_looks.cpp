@@ -24,6 +24,7 @@ struct Tint {
     std::string colorspace = {};  ///< of texture()
 };
 
+/// The plain mean: it only has to be finite where the colour is.
 float brightness(const V3f& c) {
     return (c.x + c.y + c.z) / 3;
 }
@@ -33,7 +34,8 @@ std::string handle_of(const std::string& reference) {
     return reference.substr(0, reference.find(':'));
 }
 
-/// The texture of a pattern that reads a file, where its manifold lays it.
+/// The texture of a pattern that reads a file, where its manifold lays it. Of the manifold the repetition
+/// alone is taken; offsets and turns are left out.
 Tint texture_of(const std::string& file, const RisParameters& parameters, const RisNetwork& network) {
     Tint tint{V3f(1, 1, 1), file};
     if (parameters.number_or("linearize", 0) != 0) tint.colorspace = "srgb";
@@ -46,7 +48,8 @@ Tint texture_of(const std::string& file, const RisParameters& parameters, const 
     return tint;
 }
 
-/// How far patterns have been followed.
+/// How far patterns have been followed. A network may have cycles, and may branch at each node: depth ends
+/// the first, the count the second.
 struct Walk {
     const RisNetwork& network;
     int depth = 0, seen = 0;
@@ -54,7 +57,8 @@ struct Walk {
 
 std::optional<Tint> tint_of_pattern(const std::string& handle, Walk& walk);
 
-/// What references lead to, the mean of all that is known: textures count where nothing else does.
+/// What references lead to, the mean of all that is known: textures count where nothing else does. The first
+/// texture wins over all colours, as a mean of a picture and a colour would have to be made pixel by pixel.
 class Mean {
   public:
     void add(const V3f& color) { sum_ += color, ++count_; }
@@ -126,7 +130,9 @@ std::optional<Tint> tint_of(const RisParameters& parameters, std::string_view na
     return mean.result().value_or(Tint{kGrey});
 }
 
-/// What a conductor, or glass, reflects of what comes straight.
+/// What a conductor, or glass, reflects of what comes straight. Mode 1 is physical: Fresnel's reflectance of
+/// a conductor at normal incidence, ((n - 1)^2 + k^2) / ((n + 1)^2 + k^2), of which the edge colour is a
+/// tint.
 V3f reflected(const RisParameters& parameters) {
     const V3f edge = parameters.color("specularEdgeColor").value_or(V3f(0, 0, 0));
     if (parameters.number_or("specularFresnelMode", 0) != 1)
@@ -149,7 +155,8 @@ void take_texture(const Tint& tint, RisLook& look) {
     look.colorspace = tint.colorspace;
 }
 
-/// PxrSurface, and layers of it.
+/// PxrSurface, and layers of it. Defaults are those of the plugin's documentation; clearcoat, fuzz and
+/// iridescence are left out.
 void take_lobes(const RisParameters& p, const RisNetwork& network, RisLook& look) {
     const auto add = [&](const char* gain, float without, const char* name, const V3f& otherwise) {
         const float weight = p.number_or(gain, without);
@@ -175,7 +182,8 @@ void take_lobes(const RisParameters& p, const RisNetwork& network, RisLook& look
     }
 }
 
-/// Bxdfs that others layer: the mean of what is under them.
+/// Bxdfs that others layer: the mean of what is under them. All but the colour is that of the first:
+/// highlights and textures cannot be averaged.
 bool take_layers(const RisParameters& parameters, const RisNetwork& network, RisLook& look) {
     std::vector<const RisLook*> under;
     for (const RisParameter& parameter : parameters.all())
@@ -192,13 +200,15 @@ bool take_layers(const RisParameters& parameters, const RisNetwork& network, Ris
     return true;
 }
 
-/// Parameters that hold what a surface looks like from afar, the better ones first.
+/// Parameters that hold what a surface looks like from afar, of several makers' shaders; the better ones
+/// first.
 constexpr std::string_view kColorParameters[] = {
     "baseColor",    "diffuseColor", "frontColor",    "diffuseFrontColor",
     "color",        "emitColor",    "emissionColor", "transmissionColor",
     "reflectivity", "albedo",       "tint"};
 
-/// Takes the first of kColorParameters that is there.
+/// Takes the first of kColorParameters that is there. A look without any stays without a colour, and is grey
+/// where it is shown.
 void take_any_color(const RisParameters& parameters, const RisNetwork& network, RisLook& look) {
     for (const std::string_view name : kColorParameters)
         if (const auto tint = tint_of(parameters, name, network)) {
@@ -208,6 +218,7 @@ void take_any_color(const RisParameters& parameters, const RisNetwork& network, 
         }
 }
 
+/// Whole names, since a shader of a similar name may look quite different.
 bool is_one_of(std::string_view shader, std::initializer_list<std::string_view> names) {
     return std::find(names.begin(), names.end(), shader) != names.end();
 }

@@ -13,6 +13,7 @@
 
 namespace trapeze::rib {
 
+/// A Pattern request as it stood; looked into when a Bxdf refers to it.
 struct RisPattern {
     std::string shader;
     RisParameters parameters;
@@ -33,7 +34,8 @@ struct RisLook {
     bool operator==(const RisLook&) const = default;
 };
 
-/// All are looked up by handles, the latest of a handle counting.
+/// All are looked up by handles, the latest of a handle counting. Part of Scope: what a frame or a world has
+/// defined ends with it.
 struct RisNetwork {
     std::map<std::string, RisPattern> patterns;
     std::map<std::string, RisLook> bxdfs;

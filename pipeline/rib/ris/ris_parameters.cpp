@@ -21,7 +21,8 @@ bool RisParameter::is_color() const {
     return type.starts_with("color") || (type.empty() && name.find("olor") != std::string::npos);
 }
 
-/// The last word of a token is the name, the one before it the type.
+/// The last word of a token is the name, the one before it the type. What stands before the type (a class,
+/// "reference") is passed over, but for the reference.
 RisParameters RisParameters::read(ArgumentCursor& c) {
     RisParameters result;
     while (!c.done()) {
@@ -57,6 +58,8 @@ float RisParameters::number_or(std::string_view name, float otherwise) const {
     return found->numbers[0];
 }
 
+/// A reference has a name for its value and no numbers, and is no colour here: patterns are followed by
+/// look_of_bxdf().
 std::optional<V3f> RisParameters::color(std::string_view name) const {
     const RisParameter* found = find(name);
     if (!found || !all_finite(found->numbers)) return {};
@@ -75,6 +78,7 @@ void set_number(ShaderInstance& shader, const char* name, float value) {
     shader.parameters.set({name, {StorageClass::Uniform, ValueType::Float, 1}, {value}, {}});
 }
 
+/// Replaces what the shader has of that name.
 void set_triple(ShaderInstance& shader, const char* name, ValueType type, const V3f& value) {
     shader.parameters.set({name, {StorageClass::Uniform, type, 1}, {value.x, value.y, value.z}, {}});
 }

@@ -23,6 +23,8 @@ struct RisParameter {
     bool is_color() const;
 };
 
+/// In the order of the request, repeated names included; the last of a name counts, unlike in lists of
+/// RISpec.
 class RisParameters {
   public:
     /// Name and value pairs to the end of the request. Throws a RequestError for a name without a value.

@@ -7,6 +7,8 @@ M44f bezier_basis() {
     return M44f(-1, 3, -3, 1, 3, -6, 3, 0, -3, 3, 0, 0, 1, 0, 0, 0);
 }
 
+/// Hermite's control points are point, tangent, point, tangent, which is why its step is 2; those of the
+/// power basis are the coefficients themselves, and no segment shares any.
 std::optional<CubicBasis> basis_named(std::string_view name) {
     if (name == "bezier") return CubicBasis{bezier_basis(), 3};
     if (name == "b-spline")

@@ -18,7 +18,8 @@ struct CubicBasis {
 /// for other names.
 std::optional<CubicBasis> basis_named(std::string_view name);
 
-/// What patches and curves have unless Basis says otherwise.
+/// What patches and curves have unless Basis says otherwise. RISpec's default, with a step of 3: neighbouring
+/// segments share an end.
 M44f bezier_basis();
 
 }  // namespace trapeze::rib

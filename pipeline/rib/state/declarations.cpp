@@ -88,7 +88,8 @@ std::optional<Declaration> declaration_of(const std::vector<std::string>& words)
     return declaration;
 }
 
-/// RISpec, table 5.1: variables of primitives.
+/// RISpec, table 5.1: variables of primitives. Of the three forms of points one is left when a primitive is
+/// made (primitive_variables.h).
 struct Predeclared {
     const char* name;
     Declaration declaration;
@@ -158,7 +159,8 @@ std::optional<Declaration> parse_declaration(std::string_view text) {
     return declaration_of(words_of(text));
 }
 
-/// Names of shaders' parameters are RISpec's too, and files use them without declaring them.
+/// Names of shaders' parameters are RISpec's too, and files use them without declaring them. The names are
+/// made once for each reading, so that a scene may declare them anew without an effect on the next.
 Declarations::Declarations() {
     const auto add_one = [&](const char* name, const Declaration& declaration) {
         known_[name] = {name, declaration, true};

@@ -16,8 +16,11 @@ inline constexpr int kLongestArray = 1000000;
 /// "[class] type[n]", words apart by spaces; nothing when it is not one.
 std::optional<Declaration> parse_declaration(std::string_view text);
 
+/// As Declare writes it; static memory.
 std::string_view name_of(StorageClass storage);
 
+/// One table for the whole reading: Declare is not part of the graphics state, and no block ends what it
+/// says.
 class Declarations {
   public:
     Declarations();  ///< RISpec's predeclared names
@@ -29,6 +32,7 @@ class Declarations {
         bool is_predeclared = false;  ///< a bare name of RISpec's own, that nobody has declared anew
     };
 
+    /// Primitives that were read before keep the types that they were read with.
     void declare(const std::string& name, const Declaration& declaration) {
         known_[name] = {name, declaration, false};
     }

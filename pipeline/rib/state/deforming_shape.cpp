@@ -14,6 +14,7 @@ bool same_form(const Parameter& a, const Parameter& b) {
     return a.declaration == b.declaration && a.floats.size() == b.floats.size();
 }
 
+/// With as many on both sides and no name twice, each of a having its like in b is enough.
 bool same_variables(const Shape& a, const Shape& b) {
     if (a.variables.values.size() != b.variables.values.size()) return false;
     return std::all_of(a.variables.values.begin(), a.variables.values.end(), [&](const Parameter& x) {
@@ -22,6 +23,7 @@ bool same_variables(const Shape& a, const Shape& b) {
     });
 }
 
+/// Visits pairs of topologies; those of two different kinds end in the last overload.
 struct SameForm {
     bool operator()(const PolygonMesh& a, const PolygonMesh& b) const {
         return a.loops_per_polygon == b.loops_per_polygon && a.vertices_per_loop == b.vertices_per_loop &&
@@ -60,7 +62,8 @@ struct SameForm {
     }
 };
 
-/// Everything that is a number, interpolated.
+/// Everything that is a number, interpolated. Variables are found by name, as the two may have them in
+/// another order.
 ShapePointer between(const Shape& a, const Shape& b, float t) {
     auto shape = std::make_shared<Shape>(a);
     if (auto* quadric = std::get_if<Quadric>(&shape->topology)) {
@@ -92,6 +95,7 @@ ShapePointer shape_at(const std::vector<ShapePointer>& shapes, const std::vector
 
 }  // namespace
 
+/// A single key stands for the whole shutter, and is taken as it opens.
 float key_time(float open, float close, int key, int keys) {
     return keys == 1 ? open
                      : open + (close - open) * (static_cast<float>(key) / static_cast<float>(keys - 1));
@@ -127,7 +131,8 @@ bool use_colors_at_open(std::vector<ShapePointer>& shapes, const std::vector<flo
     return moves;
 }
 
-/// Poses at times outside of the shutter count where they bound a motion within.
+/// Poses at times outside of the shutter count where they bound a motion within. Keys at even times suit all
+/// later stages: a ray's segment is found by one multiplication.
 std::vector<ShapePointer> shapes_at_keys(const std::vector<ShapePointer>& shapes,
                                          const std::vector<float>& times, float open, float close) {
     const bool moves = shapes.size() > 1 && close > open && close > times.front() && open < times.back();

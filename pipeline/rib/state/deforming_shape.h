@@ -8,12 +8,14 @@
 
 namespace trapeze::rib {
 
+/// Shapes do not change once they are made, so that poses, objects and scenes may share one.
 using ShapePointer = std::shared_ptr<const Shape>;
 
 /// Place `key` of `keys` even ones in the shutter, in seconds of the scene.
 float key_time(float open, float close, int key, int keys);
 
-/// Whether all of them have one topology and the same variables.
+/// Whether all of them have one topology and the same variables. At least one. Values may differ, and the
+/// order of variables.
 bool can_deform(const std::vector<ShapePointer>& shapes);
 
 /// Colours ("Cs", "Os") do not move: what the surface has as the shutter opens is shaded. Poses that have

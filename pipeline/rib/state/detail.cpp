@@ -18,7 +18,8 @@ SeenNumbers Detail::seen() const {
 }
 
 /// The eight corners are projected, those behind the eye from just before it: what reaches round the eye is
-/// as large as can be.
+/// as large as can be. Taken as the shutter opens, and not clipped at the edges of the picture: what is half
+/// out of sight keeps its level of detail as it comes in.
 float GraphicsStateStack::raster_area(const std::vector<float>& bound) const {
     constexpr float kInfinite = std::numeric_limits<float>::infinity();
     if (in_object()) return kInfinite;

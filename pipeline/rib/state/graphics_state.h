@@ -11,6 +11,7 @@
 #include "core/scene/level_of_detail.h"
 #include "core/scene/scene.h"
 #include "pipeline/rib/ris/ris_network.h"
+#include "pipeline/rib/state/block_kind.h"
 #include "pipeline/rib/state/moving_transform.h"
 #include "pipeline/rib/syntax/arguments.h"
 
@@ -46,6 +47,9 @@ struct Emitter {
     bool is_placed = false;  ///< the first has come
 };
 
+/// What AttributeBegin saves but for the transformation: the attributes that primitives take with them, and
+/// those that only shape what is read (bases, trims, detail). Shared and copied on write
+/// (GraphicsStateStack::change_attributes()).
 struct AttributeState {
     Attributes attributes;
     Detail detail;
@@ -62,17 +66,15 @@ struct AttributeState {
 
 using NamedSpaces = std::map<std::string, MovingTransform>;  ///< camera_from_space
 
+/// What each block saves: three shared pointers, cheap to copy however much they hold.
 struct GraphicsState {
     MovingTransform transform;  ///< camera_from_current
     std::shared_ptr<const AttributeState> attributes;
     std::shared_ptr<const NamedSpaces> scoped_spaces;  ///< ScopedCoordinateSystem; null: none
 };
 
-enum class Block { Frame, World, Attribute, Transform, Motion, Object, Solid };
-inline constexpr size_t kBlockKinds = 7;
-
 /// The request that opens it.
-const char* block_name(Block kind);
+const char* block_name(BlockKind kind);
 
 /// Solids as they are defined, and which is open.
 struct SolidList {
@@ -99,6 +101,8 @@ struct ObjectPrimitive {
     int solid = -1;  ///< of the object's
 };
 
+/// An object between ObjectBegin and ObjectEnd, and as instances find it. Its primitives stand in the
+/// object's own space, which has no camera.
 struct RetainedObject {
     std::shared_ptr<const AttributeState> attributes;  ///< at ObjectBegin
     std::vector<ObjectPrimitive> primitives;
@@ -139,8 +143,9 @@ struct Scope {
     std::vector<float> rgb(std::vector<float> colors) const;
 };
 
+/// A block that is open, with what its end restores. The id tells it from a later block at the same depth.
 struct OpenBlock {
-    Block kind = Block::Attribute;
+    BlockKind kind = BlockKind::Attribute;
     uint64_t id = 0;  ///< no other block's
     SourceLocation at;
     GraphicsState saved;

@@ -7,6 +7,7 @@ namespace {
 
 constexpr size_t kDeepestBlock = 10000;  ///< each saves a state: files that only open blocks must end
 
+/// The structures start with RISpec's defaults, but for the bases, whose matrix has to be made.
 std::shared_ptr<const AttributeState> default_attributes() {
     auto state = std::make_shared<AttributeState>();
     state->u_basis = state->v_basis = bezier_basis();
@@ -15,21 +16,21 @@ std::shared_ptr<const AttributeState> default_attributes() {
 
 }  // namespace
 
-const char* block_name(Block kind) {
+const char* block_name(BlockKind kind) {
     switch (kind) {
-        case Block::Frame:
+        case BlockKind::Frame:
             return "FrameBegin";
-        case Block::World:
+        case BlockKind::World:
             return "WorldBegin";
-        case Block::Attribute:
+        case BlockKind::Attribute:
             return "AttributeBegin";
-        case Block::Transform:
+        case BlockKind::Transform:
             return "TransformBegin";
-        case Block::Motion:
+        case BlockKind::Motion:
             return "MotionBegin";
-        case Block::Object:
+        case BlockKind::Object:
             return "ObjectBegin";
-        case Block::Solid:
+        case BlockKind::Solid:
             return "SolidBegin";
     }
     return "";
@@ -60,30 +61,32 @@ AttributeState& GraphicsStateStack::change_attributes() {
 }
 
 /// States are shared and not copied: a block saves three pointers, but for frames and worlds.
-void GraphicsStateStack::open(Block kind, SourceLocation at) {
+void GraphicsStateStack::open(BlockKind kind, SourceLocation at) {
     if (in_motion()) throw RequestError{"inside a motion block", {}};
     if (blocks_.size() >= kDeepestBlock)
         throw RequestError{"blocks are nested more than " + std::to_string(kDeepestBlock) + " deep", {}};
     OpenBlock& block = blocks_.emplace_back();
     block.kind = kind, block.id = ++block_count_, block.at = at, block.saved = state_;
     ++open_counts_[static_cast<size_t>(kind)];
-    if (kind == Block::Frame || kind == Block::World) block.scope = std::make_unique<Scope>(scope_);
-    if (kind == Block::World) scope_.named_spaces["world"] = camera_from_world_ = state_.transform;
+    if (kind == BlockKind::Frame || kind == BlockKind::World) block.scope = std::make_unique<Scope>(scope_);
+    if (kind == BlockKind::World) scope_.named_spaces["world"] = camera_from_world_ = state_.transform;
 }
 
+/// A motion block restores nothing: what it holds is there to change the state around it.
 void GraphicsStateStack::close() {
     OpenBlock block = std::move(blocks_.back());
     blocks_.pop_back();
     --open_counts_[static_cast<size_t>(block.kind)];
     if (block.scope) scope_ = std::move(*block.scope);
-    if (block.kind == Block::Motion) return;
-    if (block.kind == Block::Transform)  // attributes that changed since stay
+    if (block.kind == BlockKind::Motion) return;
+    if (block.kind == BlockKind::Transform)  // attributes that changed since stay
         state_.transform = std::move(block.saved.transform);
     else
         state_ = std::move(block.saved);
 }
 
-/// A saved state outlives the block that it was saved in.
+/// A saved state outlives the block that it was saved in. Scoped names of coordinate systems stay what they
+/// are.
 bool GraphicsStateStack::restore(const std::string& name, bool attributes, bool transform) {
     if (in_motion()) throw RequestError{"inside a motion block", {}};
     const GraphicsState* const saved = saved_states_.find(name);
@@ -98,10 +101,13 @@ MovingTransform GraphicsStateStack::root_transform() const {
     return in_world() && !in_object() ? camera_from_world_ : MovingTransform();
 }
 
+/// Kept with its motion, and taken as the shutter opens only when the world is delivered: until WorldBegin
+/// the shutter may change.
 void GraphicsStateStack::name_coordinate_system(const std::string& name) {
     scope_.named_spaces[name] = state_.transform;
 }
 
+/// Copied on each new name: saved states share the map, and scenes name few.
 void GraphicsStateStack::name_scoped_coordinate_system(const std::string& name) {
     auto spaces = state_.scoped_spaces ? std::make_shared<NamedSpaces>(*state_.scoped_spaces)
                                        : std::make_shared<NamedSpaces>();
@@ -140,7 +146,8 @@ bool GraphicsStateStack::is_right_handed() const {
     bool right = state_.transform.at(open).determinant() < 0;
     // An object's own space stands in that in which its definition began.
     for (const OpenBlock& block : blocks_)
-        if (block.kind == Block::Object && block.saved.transform.at(open).determinant() < 0) right = !right;
+        if (block.kind == BlockKind::Object && block.saved.transform.at(open).determinant() < 0)
+            right = !right;
     return right;
 }
 

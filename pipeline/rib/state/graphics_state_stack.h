@@ -19,16 +19,19 @@ class GraphicsStateStack {
     /// RISpec's defaults.
     GraphicsStateStack();
 
+    /// For the transformation mainly: attributes are changed through change_attributes().
     GraphicsState& current() { return state_; }
     const GraphicsState& current() const { return state_; }
     const AttributeState& attributes() const { return *state_.attributes; }
     /// Copies the attributes first where primitives or blocks share them.
     AttributeState& change_attributes();
 
+    /// What frames and worlds restore; a change holds until the innermost of them ends.
     Scope& scope() { return scope_; }
     const Scope& scope() const { return scope_; }
     Options& options() { return scope_.options; }
     const Options& options() const { return scope_.options; }
+    /// Outside of all blocks: none restores them.
     Declarations& declarations() { return declarations_; }
     const Declarations& declarations() const { return declarations_; }
 
@@ -36,17 +39,17 @@ class GraphicsStateStack {
     /// Opens a block at the place of its request; frames and worlds save the scope too. The world's
     /// transformation is the camera's. Throws a RequestError inside a motion block, or when blocks nest too
     /// deeply.
-    void open(Block kind, SourceLocation at);
+    void open(BlockKind kind, SourceLocation at);
     /// Closes the innermost block and restores what it saved: of a transform block the transformation alone,
     /// of a motion block nothing.
     void close();
-    bool is_open(Block kind) const { return open_counts_[static_cast<size_t>(kind)] > 0; }
+    bool is_open(BlockKind kind) const { return open_counts_[static_cast<size_t>(kind)] > 0; }
     /// All open blocks, the outermost first.
     const std::vector<OpenBlock>& blocks() const { return blocks_; }
-    bool in_world() const { return is_open(Block::World); }
-    bool in_object() const { return is_open(Block::Object); }
+    bool in_world() const { return is_open(BlockKind::World); }
+    bool in_object() const { return is_open(BlockKind::Object); }
     /// No block opens within a motion block: it is the innermost.
-    bool in_motion() const { return is_open(Block::Motion); }
+    bool in_motion() const { return is_open(BlockKind::Motion); }
 
     // --- PRMan's Resource ---
     SavedStates& saved_states() { return saved_states_; }
@@ -84,7 +87,7 @@ class GraphicsStateStack {
     SavedStates saved_states_;
     MovingTransform camera_from_world_;
     std::vector<OpenBlock> blocks_;
-    std::array<size_t, kBlockKinds> open_counts_{};  ///< by Block
+    std::array<size_t, kBlockKinds> open_counts_{};  ///< by BlockKind
     uint64_t block_count_ = 0;                       ///< since the beginning, for the blocks' ids
 };
 

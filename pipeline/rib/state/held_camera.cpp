@@ -9,12 +9,15 @@
 namespace trapeze::rib {
 namespace {
 
+/// A matrix near to singular has an inverse of infinite elements, which no test of its determinant finds.
 bool is_finite(const M44d& m) {
     return std::all_of(&m[0][0], &m[0][0] + 16, [](double x) { return std::isfinite(x); });
 }
 
 }  // namespace
 
+/// At each key: from the camera of that moment back to the world, then to the camera as the shutter opens.
+/// Keys are as many as any motion has, so that those of a primitive are all among them.
 std::vector<M44f> held_camera(const MovingTransform& camera_from_world, float open, float close) {
     if (!camera_from_world.moves_between(open, close)) return {};
     const M44d at_open = camera_from_world.at(open);

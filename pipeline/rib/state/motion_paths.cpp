@@ -79,7 +79,8 @@ void extend(Box3f& box, const ParameterList& variables) {
                 box.extendBy(V3f(Pw->floats[i], Pw->floats[i + 1], Pw->floats[i + 2]) / w);
 }
 
-/// Pixels from one place to another as the camera sees them; 0 where it cannot.
+/// Pixels from one place to another as the camera sees them; 0 where it cannot. To first order, about the
+/// nearer of the two: they are close together where the result matters.
 float pixels_between(const V3d& a, const V3d& b, const Camera& camera) {
     const double depth =
         camera.perspective ? std::max(std::min(a.z, b.z), kLeastDepth * std::max(a.length(), b.length())) : 1;
@@ -102,6 +103,8 @@ V3d transformed(const M44d& m, const V3f& p) {
 
 }  // namespace
 
+/// The box stands for all points: a rotation bends the paths of those farthest from its centre most, and no
+/// point of the box is farther from any centre than one of its corners.
 std::vector<V3f> corners_of(const std::vector<std::shared_ptr<const Shape>>& shape_keys) {
     Box3f box;
     for (const auto& key : shape_keys) {

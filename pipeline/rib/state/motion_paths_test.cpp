@@ -2,19 +2,20 @@
 #include "core/motion_keys.h"
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 /// A bar of that half-length, turned about z by some degrees in the shutter, at depth 10: 64 pixels wide are
 /// `scale` units there.
 Primitive turning_bar(float half_length, float degrees, int width, float fov = 90) {
     const std::string x = std::to_string(half_length);
-    const Outcome r = read_text("Format " + std::to_string(width) + " " + std::to_string(width) +
-                                " 1 Projection \"perspective\" \"fov\" [" + std::to_string(fov) +
-                                "] Shutter 0 1 Translate 0 0 10 WorldBegin MotionBegin [0 1] Rotate 0 0 0 1 "
-                                "Rotate " +
-                                std::to_string(degrees) + " 0 0 1 MotionEnd Polygon \"P\" [-" + x +
-                                " -.01 0 " + x + " -.01 0 " + x + " .01 0 -" + x + " .01 0] WorldEnd");
+    const ReadOutcome r =
+        read_text("Format " + std::to_string(width) + " " + std::to_string(width) +
+                  " 1 Projection \"perspective\" \"fov\" [" + std::to_string(fov) +
+                  "] Shutter 0 1 Translate 0 0 10 WorldBegin MotionBegin [0 1] Rotate 0 0 0 1 "
+                  "Rotate " +
+                  std::to_string(degrees) + " 0 0 1 MotionEnd Polygon \"P\" [-" + x + " -.01 0 " + x +
+                  " -.01 0 " + x + " .01 0 -" + x + " .01 0] WorldEnd");
     EXPECT_THAT(r.messages, ::testing::IsEmpty());
     return r.primitive();
 }
@@ -63,7 +64,7 @@ TEST(MotionPaths, KeysEndAtTheMost) {
 }
 
 TEST(MotionPaths, TranslationsStayStraight) {
-    const Outcome r = read_text(
+    const ReadOutcome r = read_text(
         "Format 4000 4000 1 Projection \"perspective\" Shutter 0 1 Translate 0 0 10 WorldBegin MotionBegin "
         "[0 1] "
         "Translate 0 0 0 Translate 8 8 5 MotionEnd Rotate 30 1 1 1 Sphere 3 -3 3 360 WorldEnd");
@@ -81,7 +82,7 @@ TEST(MotionPaths, AllSurfacesHaveTheirExtent) {
           "Patch \"bilinear\" \"Pw\" [-12 -12 0 2 12 -12 0 2 -12 12 0 2 12 12 0 2]",
           "Blobby 1 [1001 0] [6 0 0 0 0 6 0 0 0 0 6 0 0 0 0 1]",
           "Blobby 2 [1000 0 1002 1 0 2 0 1 7 2] [0 -5 0 0 5 0 0 1 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1]"}) {
-        const Outcome r = read_text(
+        const ReadOutcome r = read_text(
             "Format 1000 1000 1 Projection \"perspective\" Shutter 0 1 Translate 0 0 10 WorldBegin "
             "MotionBegin "
             "[0 1] Rotate 0 0 0 1 Rotate 30 0 0 1 MotionEnd " +
@@ -92,4 +93,4 @@ TEST(MotionPaths, AllSurfacesHaveTheirExtent) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

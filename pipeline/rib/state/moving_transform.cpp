@@ -20,7 +20,8 @@ double radians(double degrees) {
     return degrees * (M_PI / 180);
 }
 
-/// RISpec: about an axis, in the sense in which x goes to y about z.
+/// RISpec: about an axis, in the sense in which x goes to y about z. Written for row vectors: the rows are
+/// what becomes of the axes.
 M44d rotation(const TransformArguments& a) {
     V3d axis(a[1], a[2], a[3]);
     if (axis.length() == 0) return M44d();
@@ -163,6 +164,7 @@ M44d MovingTransform::at(float time) const {
     return m;
 }
 
+/// Fixed factors never move, so that a still scene costs a walk along a chain of one.
 bool MovingTransform::moves_between(float open, float close) const {
     for (const Factor* f = newest_.get(); f; f = f->older.get())
         if (f->moving && f->moving->moves_between(open, close)) return true;

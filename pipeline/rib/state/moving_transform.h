@@ -10,12 +10,15 @@
 
 namespace trapeze::rib {
 
+/// The requests of RISpec 4.3; Transform and Identity are a Matrix that replaces what was there.
 enum class TransformKind { Translate, Rotate, Scale, Skew, Matrix, Perspective };
 
 /// The numbers of the request: Translate and Scale 3, Rotate angle and axis, Skew angle and two vectors,
 /// Matrix 16.
 using TransformArguments = std::vector<float>;
 
+/// In double, as a chain may be long: rounding to float happens once, when a primitive or a shader takes the
+/// product. A vector without length makes the identity, not NaN: handlers have refused it before.
 M44d transform_matrix(TransformKind kind, const TransformArguments& arguments);
 
 /// Requests of one kind at given times (seconds of the scene); arguments between times are interpolated
@@ -25,6 +28,8 @@ struct MovingFactor {
     std::vector<float> times;
     std::vector<TransformArguments> arguments;
 
+    /// The factor at a time of the scene: before the first of its times as at the first, after the last as at
+    /// that.
     M44d at(float time) const;
     bool moves_between(float open, float close) const;
     /// Degrees that the fastest part within the shutter would turn in a whole shutter; 0 unless it rotates.
@@ -34,16 +39,21 @@ struct MovingFactor {
 /// A chain of factors, the newest applied first. Copies share it: blocks nest deeply.
 class MovingTransform {
   public:
+    /// p' = p * new * old: the newest acts on points first, as RISpec has it.
     void concat(const M44d& matrix);
     void concat(MovingFactor factor);
     void concat(const MovingTransform& newer);
+    /// The whole product at a time of the scene, in seconds. Multiplied anew at each call.
     M44d at(float time) const;
+    /// Whether any factor changes within the shutter. The product may stand still all the same, where two
+    /// motions cancel.
     bool moves_between(float open, float close) const;
     /// Keys that the motion in the shutter wants: 1, or 2^m + 1 so that keys given on a dyadic division of
     /// the shutter are met and no segment turns by more than about ten degrees, or bends as much.
     int wanted_keys(float open, float close) const;
     /// False when every point moves straight: at most one motion acts in the shutter, and it turns nothing.
     bool may_bend(float open, float close) const;
+    /// For a limit (MotionCollector): each costs work at every key of every primitive.
     int moving_factors() const { return newest_ ? newest_->moving_factors : 0; }
 
   private:

@@ -33,12 +33,14 @@ class ReadyArchive {
     ReadyArchive(const ReadyArchive&) = delete;
     ReadyArchive& operator=(const ReadyArchive&) = delete;
 
+    /// To be called while the text is read for the first time, in its order; without effect after give_up().
     void add(const RequestText& request);
     /// What was added was all of a text of so many bytes.
     void complete(uint64_t text_bytes) { is_complete_ = !is_given_up_, text_bytes_ = text_bytes; }
     /// The text has to be read as text each time.
     void give_up();
     bool is_given_up() const { return is_given_up_; }
+    /// Then its requests stand for the text, which need not be read again.
     bool is_complete() const { return is_complete_; }
 
     uint64_t text_bytes() const { return text_bytes_; }
@@ -52,6 +54,8 @@ class ReadyArchive {
     bool share(size_t index, size_t ordinal, std::shared_ptr<const Shape>& shape);
 
   private:
+    /// A request as it was read the first time, whose source its places still have (see copy()), and the
+    /// shapes that it made, by their order.
     struct Known {
         std::string name;
         SourceLocation at;

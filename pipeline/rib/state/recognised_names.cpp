@@ -68,6 +68,7 @@ constexpr UnneededAttribute kUnneededAttributes[] = {
     {"stitch", "enable", "grids join without cracks in any case"},
     {"stitch", "newgroup", "grids join without cracks in any case"},
     {"stitch", "traceenable", "grids join without cracks in any case"},
+    {"visibility", "photon", "there are no photons to see it"},
 };
 
 /// Parameters of Hider, whichever it is.
@@ -112,6 +113,7 @@ std::vector<std::string> listed(const std::string_view (&values)[kCount]) {
 
 }  // namespace
 
+/// Made anew at each call, for documents and messages; the reader asks by recognises_...() below.
 RecognisedNames recognised_names() {
     return {listed(kOptions), listed(kAttributes), listed(kHider), listed(kDisplay)};
 }

@@ -13,6 +13,8 @@ namespace trapeze::rib {
 struct RecognisedNames {
     std::vector<std::string> options, attributes, hider, display;
 };
+
+/// From the same tables that recognises_...() look into, so that documents made of it cannot go stale.
 RecognisedNames recognised_names();
 
 /// Attributes of other renderers that tune quality or speed where this renderer has nothing to tune: pictures
@@ -24,6 +26,7 @@ std::span<const UnneededAttribute> unneeded_attributes();
 /// Null for others.
 const UnneededAttribute* unneeded_attribute(std::string_view category, std::string_view name);
 
+/// Names alone: whether the value makes sense is its reader's to say.
 bool recognises_option(std::string_view category, std::string_view name);
 bool recognises_attribute(std::string_view category, std::string_view name);
 bool recognises_hider_parameter(std::string_view name);

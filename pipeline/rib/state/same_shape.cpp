@@ -64,6 +64,7 @@ struct SameTopology {
     }
 };
 
+/// The order counts too: an archive writes its variables alike each time.
 bool is_same_variable(const Parameter& a, const Parameter& b) {
     return a.name == b.name && a.declaration == b.declaration && a.floats == b.floats &&
            a.strings == b.strings;

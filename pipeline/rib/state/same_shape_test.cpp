@@ -2,7 +2,7 @@
 
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 std::shared_ptr<const Shape> shape_of(const std::string& text) {
@@ -44,8 +44,8 @@ TEST(SameShape, ShapesAreLikeThemselvesAlone) {
     for (const std::string& text : kShapes) shapes.push_back(shape_of(text)), again.push_back(shape_of(text));
     for (size_t i = 0; i < shapes.size(); ++i)
         for (size_t k = 0; k < shapes.size(); ++k)
-            EXPECT_EQ(is_same(*shapes[i], *again[k]), i == k) << kShapes[i] << '\n' << kShapes[k];
+            EXPECT_EQ(rib::is_same(*shapes[i], *again[k]), i == k) << kShapes[i] << '\n' << kShapes[k];
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

@@ -17,6 +17,7 @@ void SavedStates::save(const std::string& name, const GraphicsState& state) {
     const_cast<States&>(*states_)[name] = state;
 }
 
+/// Holds until the next save(), or the end of the block.
 const GraphicsState* SavedStates::find(const std::string& name) const {
     const auto saved = states_->find(name);
     return saved == states_->end() ? nullptr : &saved->second;
@@ -29,6 +30,7 @@ void SavedStates::begin_block() {
     outer_.push_back(states_);
 }
 
+/// Names that the block saved are dropped with it, and those that it replaced are what they were.
 void SavedStates::end_block() {
     if (outer_.empty()) throw RequestError{"no ResourceBegin is open", {}};
     states_ = std::move(outer_.back());

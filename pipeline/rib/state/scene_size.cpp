@@ -19,6 +19,7 @@ size_t bytes_of(const std::vector<std::string>& strings) {
     return bytes;
 }
 
+/// Variables are most of a scene: points, normals and texture coordinates of its meshes.
 size_t bytes_of(const ParameterList& list) {
     size_t bytes = 0;
     for (const Parameter& parameter : list.values)

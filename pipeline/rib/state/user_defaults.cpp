@@ -6,7 +6,8 @@
 
 namespace trapeze {
 
-/// A variable that is set but empty counts as not set, as the specification says.
+/// A variable that is set but empty counts as not set, as the specification says. Without a home there is no
+/// such file: the working folder is not looked into.
 std::string user_defaults_file() {
     namespace fs = std::filesystem;
     const char* const config = std::getenv("XDG_CONFIG_HOME");

@@ -44,7 +44,8 @@ void append_encoded(RequestText& request, const Token& token, Argument& array) {
     if (!append_floats(token.text, array.floats)) note_problem(request, token.at, kNotFinite);
 }
 
-/// The elements of an array up to its end, or to the request that stands where the end should be.
+/// The elements of an array up to its end, or to the request that stands where the end should be. The first
+/// mistake is kept and the rest read past, up to the bracket: messages are one for a request.
 void read_array(Lexer& lexer, Argument& array, RequestText& request, IsRequest is_request) {
     array.kind = Argument::Kind::Array;
     array.at = lexer.peek().at;
@@ -100,7 +101,8 @@ void read_array(Lexer& lexer, Argument& array, RequestText& request, IsRequest i
         note_problem(request, array.at, "an array holds both numbers and strings");
 }
 
-/// Passes over what stands before a request; false at the end of the text.
+/// Passes over what stands before a request; false at the end of the text. One message for all that is passed
+/// over: stray text mostly comes in runs.
 bool find_request_name(Lexer& lexer, Diagnostics& diagnostics) {
     for (bool reported = false;; lexer.skip()) {
         const Token& token = lexer.peek();
@@ -120,6 +122,7 @@ uint32_t last_line(const RequestText& request) {
 
 }  // namespace
 
+/// Control characters are replaced: a file must not write escape sequences to the terminal of who reads it.
 std::string clipped(std::string_view text) {
     std::string shown(text.substr(0, kLongestShown));
     for (char& c : shown)
@@ -204,7 +207,8 @@ float ArgumentCursor::number(const char* what) {
     return request_.arguments[next_++].take_numbers()[0];
 }
 
-/// The limits are those that the caller can work with, and are said where they do not hold.
+/// The limits are those that the caller can work with, and are said where they do not hold. A float that is
+/// whole will do: RIB has one kind of numbers in its text.
 int ArgumentCursor::integer(const char* what, int lowest, int highest) {
     const SourceLocation at = done() ? SourceLocation{} : peek()->at;
     const std::vector<int> values = int_array(what);
@@ -229,7 +233,8 @@ std::vector<float> ArgumentCursor::numbers(size_t least, size_t most, const char
     return values;
 }
 
-/// Bare numbers take memory once.
+/// Bare numbers take memory once. The first array's memory is taken over, as mostly it holds all of the
+/// numbers.
 std::vector<float> ArgumentCursor::numbers_up_to(size_t most) {
     std::vector<float> values;
     if (next_is_number() && peek()->kind == Argument::Kind::Number)
@@ -249,6 +254,7 @@ std::vector<float> ArgumentCursor::numbers_up_to(size_t most) {
     return values;
 }
 
+/// Moved out, like all that is taken: a request is carried out once, and what is read again is copied first.
 std::string ArgumentCursor::string(const char* what) {
     if (!next_is_string() || peek()->strings.size() != 1) missing(what);
     return std::move(request_.arguments[next_++].strings[0]);

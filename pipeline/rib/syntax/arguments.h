@@ -16,6 +16,7 @@ namespace trapeze::rib {
 
 /// A number, a string, or an array of either (arrays of both are invalid).
 struct Argument {
+    /// As the file writes it; whether brackets matter is up to the request (RISpec appendix C.2).
     enum class Kind { Number, String, Array };
 
     Kind kind = Kind::Number;
@@ -27,6 +28,7 @@ struct Argument {
     std::vector<std::pair<size_t, double>> large_integers;
 
     bool is_text() const { return kind == Kind::String || !strings.empty(); }
+    /// For a string 0, as it has no floats.
     size_t number_count() const { return kind == Kind::Number ? 1 : floats.size(); }
     /// The numbers, moved out.
     std::vector<float> take_numbers();
@@ -104,6 +106,7 @@ struct RequestText {
     std::string problem;  ///< what is wrong with the arguments as text; empty when nothing
     SourceLocation problem_at;
 
+    /// For the next request, which writes its name over the old one; memory is kept.
     void clear() { problem.clear(), arguments.clear(); }
 };
 

@@ -6,6 +6,8 @@
 
 namespace trapeze::rib {
 
+/// Comments are what the lexer passes over: it is run for them alone, and its tokens are dropped. It alone
+/// can tell a comment from a "#" within a string or an encoded value.
 bool for_each_comment(const std::string& path, size_t max_bytes,
                       const std::function<void(Comment)>& on_comment, std::string* error) {
     const std::optional<SourceText> source = read_source(path, max_bytes, error);

@@ -44,6 +44,7 @@ ConditionValue as_numbers(const ConditionValue& value) {
     return number(parsed);
 }
 
+/// Texts by their bytes, arrays from the first element on, as std::string and std::vector compare.
 template <class T>
 bool compare(const T& a, std::string_view op, const T& b) {
     if (op == "==") return a == b;
@@ -55,6 +56,7 @@ bool compare(const T& a, std::string_view op, const T& b) {
 }
 
 /// Texts by their letters, numbers by value, a text with a number by value; what cannot be compared differs.
+/// Arrays of other lengths are unlike, and neither is less.
 bool compare_values(const ConditionValue& a, std::string_view op, const ConditionValue& b) {
     if (op == "=~") return a.text && b.text && vm::matches(*b.text, *a.text);
     if (a.text && b.text) return compare(*a.text, op, *b.text);
@@ -75,7 +77,8 @@ ConditionValue arithmetic(const ConditionValue& a, char op, const ConditionValue
     return number(op == '+' ? u + v : op == '-' ? u - v : op == '*' ? u * v : u / v);
 }
 
-/// Recursive descent, which evaluates as it goes.
+/// Recursive descent, which evaluates as it goes. No tree is made: an expression is evaluated once, in the
+/// state in which its request stands.
 class Evaluator {
   public:
     Evaluator(std::string_view text, const ConditionVariables& variables)
@@ -142,6 +145,7 @@ class Evaluator {
             if (take(op)) return number(compare_values(left, op, sum()));
         return left;
     }
+    // From left to right: a - b - c is (a - b) - c.
     ConditionValue sum() {
         ConditionValue value = product();
         while (true)
@@ -293,7 +297,8 @@ ConditionResult evaluate_condition(std::string_view expression, const ConditionV
     return result;
 }
 
-/// A name ends where no name character follows; colons at its end are the text's ("$name: ").
+/// A name ends where no name character follows; colons at its end are the text's ("$name: "). A value is not
+/// looked through again, so that one that names itself ends. The marker may be any text.
 std::string substitute_variables(const std::string& text, const std::string& marker,
                                  const ConditionVariables& variables) {
     if (marker.empty()) return text;

@@ -27,12 +27,14 @@ struct ConditionValue {
 /// What a name without its $ stands for.
 using ConditionVariables = std::function<ConditionValue(const std::string& name)>;
 
+/// What evaluate_condition() found; it throws nothing, as a wrong condition is an error of the file's.
 struct ConditionResult {
     bool holds = false;
     std::string problem;                 ///< why there is no result; empty when all is well
     std::vector<std::string> undefined;  ///< variables whose values were asked for in vain
 };
 
+/// Calls `variables` for each name, in no order to rely on, and more than once where a name is repeated.
 ConditionResult evaluate_condition(std::string_view expression, const ConditionVariables& variables);
 
 /// `text` with $name and ${name} replaced by their values, `marker` standing for $. Names nobody knows stay

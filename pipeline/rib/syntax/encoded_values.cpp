@@ -40,6 +40,8 @@ EncodedValue encoded_value(std::string_view bytes) {
 }
 
 /// Integers are two's complement; fixed-point numbers are integers with so many bytes behind the point.
+/// Shifted up and down again as a signed number, the sign's bit is spread over the bytes that the value does
+/// not have.
 double decoded_number(const EncodedValue& value, std::string_view bytes) {
     const unsigned first = static_cast<unsigned char>(bytes[0]);
     if (value.encoding == Encoding::Float)
@@ -53,6 +55,7 @@ double decoded_number(const EncodedValue& value, std::string_view bytes) {
     return std::ldexp(static_cast<double>(aligned >> (64 - 8 * width)), -8 * static_cast<int>(fraction));
 }
 
+/// All that follows the first byte is the code: one byte for requests, one or more for strings.
 unsigned decoded_code(const EncodedValue& value, std::string_view bytes) {
     return static_cast<unsigned>(big_endian(bytes, 1, static_cast<size_t>(value.length) - 1));
 }

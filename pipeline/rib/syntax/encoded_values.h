@@ -24,6 +24,7 @@ enum class Encoding : uint8_t {
     None,           ///< RISpec reserves the byte
 };
 
+/// A value's kind and extent, known from its first bytes alone; its contents follow the header.
 struct EncodedValue {
     Encoding encoding = Encoding::None;
     /// Bytes of the value with its first one; of definitions without the string. May be more than there are.
@@ -43,7 +44,8 @@ unsigned decoded_code(const EncodedValue& value, std::string_view bytes);
 /// Appends the contents of an array of floats; false when some are not finite.
 bool append_floats(std::string_view contents, std::vector<float>& floats);
 
-/// What a stream has defined.
+/// What a stream has defined. Codes are defined by the stream itself, as it goes; a later definition of a
+/// code replaces the earlier one.
 struct EncodedNames {
     std::map<unsigned, std::string> requests, strings;
 };

@@ -3,7 +3,8 @@
 
 namespace trapeze::rib {
 
-/// Octal as in the table. Most have a count added, which is that of bytes unless said otherwise.
+/// Octal as in the table. Most have a count added, which is that of bytes unless said otherwise, and which
+/// never reaches the next byte of the list.
 enum EncodingByte : unsigned {
     kIntegerByte = 0200,        ///< + 4 * bytes of fraction + bytes - 1; big-endian, two's complement
     kShortStringByte = 0220,    ///< + length, below 16

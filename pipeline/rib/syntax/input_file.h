@@ -12,6 +12,8 @@ struct CloseInput {
         if (file != stdin) std::fclose(file);
     }
 };
+
+/// Null where the file could not be opened; errno says why.
 using InputFile = std::unique_ptr<std::FILE, CloseInput>;
 
 }  // namespace trapeze::rib

@@ -70,7 +70,8 @@ bool is_space(char c) {
 }
 
 /// Whether rounding to float what was rounded to double already may differ from rounding once: the double
-/// lies half-way between two floats.
+/// lies half-way between two floats. A double has 29 bits of mantissa more than a float: half-way is a one
+/// and 28 zeros.
 bool is_half_way(double value) {
     return (std::bit_cast<uint64_t>(value) & 0x1fffffff) == 0x10000000;
 }
@@ -131,7 +132,8 @@ const char* read_number(const char* p, const char* end, double* value) {
 }
 
 /// Reads numbers as read_number() does, but only those without an exponent, in a text that goes on beyond the
-/// number; null where read_number() must decide.
+/// number; null where read_number() must decide. The digits as an integer and the power of ten are exact, so
+/// the quotient rounds once.
 const char* read_plain_number(const char* p, double* value) {
     const bool negative = *p == '-';
     p += negative;
@@ -183,6 +185,7 @@ Lexer::Lexer(std::string_view text, SourceLocation first, EncodedNames names)
 }
 
 /// Blanks, ends of lines and comments. Lines end with \n, \r\n or \r, and are counted here and in strings.
+/// Comments may hold anything, encoded bytes too: they end with their line alone.
 void Lexer::skip_space() {
     const char* p;
     while (next_ < end_ && is_space(*next_)) {
@@ -212,7 +215,8 @@ const char* Lexer::number_at(const char* p, double* value) const {
 }
 
 /// How many finite numbers came one after another, at most as many as there is room for. Wherever it ends,
-/// the general lexer goes on.
+/// the general lexer goes on. No token is made of them, and no place noted: if something is wrong the general
+/// lexer meets it again and says where.
 size_t Lexer::fast_numbers(std::span<double> numbers) {
     const auto skip_blanks = [this](const char* p) {
         while (p < last_stop_ && (*p == ' ' || *p == '\t')) ++p;
@@ -323,7 +327,8 @@ bool Lexer::be_bad(const char* what, const char* stop) {
     return true;
 }
 
-/// False when it was a definition, which is no token.
+/// False when it was a definition, which is no token. The text of a request that is not defined is no
+/// request's name, and is reported like any other unknown one.
 bool Lexer::scan_encoded() {
     const std::string_view bytes(next_, static_cast<size_t>(end_ - next_));
     const EncodedValue value = encoded_value(bytes);

@@ -18,6 +18,7 @@ enum class TokenKind { End, Word, Number, String, Open, Close, Bad, Floats };
 /// The text of Bad tokens that are neither words, numbers nor strings.
 inline constexpr char kStrayCharacters[] = "characters that RIB does not have";
 
+/// Views point into the text, or into the lexer's table of names: they hold until the next token is read.
 struct Token {
     TokenKind kind = TokenKind::End;
     SourceLocation at;
@@ -26,13 +27,18 @@ struct Token {
     std::string string;     ///< String, escapes undone
 };
 
+/// One pass over a text that stays in memory as long as the lexer does, with one token of look-ahead. It
+/// never fails: what is no token of RIB is a Bad one, and the caller decides what is lost with it.
 class Lexer {
   public:
+    /// Spans of scan_numbers(), at most: enough that a call costs little, few enough to stay in the first
+    /// cache.
     static constexpr size_t kNumbersAtOnce = 64;
 
     /// `first` is the place of the text's first character; `names` are those that an outer text has defined.
     Lexer(std::string_view text, SourceLocation first, EncodedNames names = {});
 
+    /// The next token, which stays the next one until skip().
     const Token& peek() {
         if (!has_token_) scan(), has_token_ = true;
         return token_;
@@ -65,6 +71,7 @@ class Lexer {
     /// To be called with each comment that is passed over, from its "#" to the end of its line.
     void on_comment(std::function<void(std::string_view)> listener) { on_comment_ = std::move(listener); }
 
+    /// What has been defined up to here, for a text that is cut out of this one (ArchiveBegin).
     const EncodedNames& encoded_names() const { return names_; }
 
     /// Where the next token begins: bytes from the beginning of the text.

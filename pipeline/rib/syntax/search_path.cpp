@@ -14,6 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// As shells have it for names of variables.
 bool is_name(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
 }
@@ -79,6 +80,8 @@ std::string folder_elsewhere(const std::string& folder, const std::string& folde
 
 }  // namespace
 
+/// Colons separate, as in RISpec; a drive's letter of other systems is taken for a folder, which is not
+/// there.
 std::vector<std::string> expand_search_path(const std::string& path, const std::vector<std::string>& previous,
                                             const std::string& folder_of_file, const Access& access,
                                             std::vector<std::string>* closed) {
@@ -120,6 +123,7 @@ std::vector<std::string> expand_search_path(const std::string& path, const std::
     return folders;
 }
 
+/// Names are those that projects have; they are searched in the order of the list, beside the file first.
 std::vector<std::string> usual_folders(const std::string& category, const std::string& folder_of_file,
                                        const Access& access) {
     static const std::map<std::string, std::vector<const char*>> kNames = {

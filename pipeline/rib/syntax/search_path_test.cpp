@@ -5,7 +5,7 @@
 
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 using Paths = std::vector<std::string>;
@@ -22,32 +22,32 @@ class SearchPath : public ::testing::Test {
 };
 
 TEST_F(SearchPath, FoldersAreSearchedBesideTheFileAndFromTheWorkingFolder) {
-    EXPECT_EQ(expand_search_path("nowhere:&:@::/nor/here", {"before"}, shots_),
+    EXPECT_EQ(rib::expand_search_path("nowhere:&:@::/nor/here", {"before"}, shots_),
               (Paths{shots_ + "/nowhere", "nowhere", "before", "/nor/here"}));
-    EXPECT_EQ(expand_search_path("nowhere", {}, ""), (Paths{"nowhere"}));
+    EXPECT_EQ(rib::expand_search_path("nowhere", {}, ""), (Paths{"nowhere"}));
 }
 
 TEST_F(SearchPath, FoldersOfTheProjectAreSeenFromBelow) {
-    EXPECT_EQ(expand_search_path("shaders", {}, shots_),
+    EXPECT_EQ(rib::expand_search_path("shaders", {}, shots_),
               (Paths{shots_ + "/shaders", "shaders", shots_ + "/../../shaders"}));
-    EXPECT_EQ(expand_search_path("./shaders", {}, project_.path() + "/scenes").back(),
+    EXPECT_EQ(rib::expand_search_path("./shaders", {}, project_.path() + "/scenes").back(),
               project_.path() + "/scenes/.././shaders");
 }
 
 TEST_F(SearchPath, FoldersOfOtherMachinesAreKnownByTheirLastNames) {
-    EXPECT_EQ(expand_search_path("/home/somebody/work/shaders", {}, shots_),
+    EXPECT_EQ(rib::expand_search_path("/home/somebody/work/shaders", {}, shots_),
               (Paths{"/home/somebody/work/shaders", shots_ + "/../../shaders"}));
 }
 
 TEST_F(SearchPath, WhatIsThereIsTakenAsItIs) {
     project_.write("scenes/shots/shaders/y.sl", "");
-    EXPECT_EQ(expand_search_path("shaders", {}, shots_), (Paths{shots_ + "/shaders", "shaders"}));
-    EXPECT_EQ(expand_search_path(shots_, {}, "elsewhere"), (Paths{shots_}));
+    EXPECT_EQ(rib::expand_search_path("shaders", {}, shots_), (Paths{shots_ + "/shaders", "shaders"}));
+    EXPECT_EQ(rib::expand_search_path(shots_, {}, "elsewhere"), (Paths{shots_}));
 }
 
 /// Shaders and maps that a scene names from its project's folder are looked for there.
 TEST_F(SearchPath, WorldsHaveTheFoldersAboveTheirFile) {
-    const Outcome r =
+    const ReadOutcome r =
         read_files(project_, {project_.write("scenes/shots/b.rib", "WorldBegin " + kSphere + " WorldEnd")});
     ASSERT_EQ(r.worlds.size(), 1u);
     const Paths& folders = r.scene().options.search_paths.at("shader");
@@ -57,4 +57,4 @@ TEST_F(SearchPath, WorldsHaveTheFoldersAboveTheirFile) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

@@ -20,7 +20,8 @@ namespace {
 /// Bytes that are read or inflated at once.
 constexpr size_t kChunk = size_t{1} << 20;
 
-/// A file's size is only a hint: pipes have none, and files grow while they are read.
+/// A file's size is only a hint: pipes have none, and files grow while they are read. Read in pieces up to
+/// the limit and one piece more, by which it is known that there is more.
 std::string read_all(std::FILE* file, size_t max_bytes, std::string* problem) {
     std::string bytes;
     struct stat status {};

@@ -9,11 +9,14 @@
 
 namespace trapeze::rib {
 
+/// The whole text is in memory at once: the lexer hands out views of it. A text with a problem is used as far
+/// as it goes.
 struct SourceText {
     std::string text;
     std::string problem;  ///< why there is none, or not all of it; empty when all is well
 };
 
+/// Deflate is the bare stream, without gzip's header, as zip archives hold it.
 enum class Packing { Gzip, Deflate };
 
 /// Undoes gzip (several members too) or deflate, up to max_bytes. *problem stays empty when all is well.

@@ -46,7 +46,8 @@ struct Entry {
     uint64_t packed_size = 0, header_at = 0;
 };
 
-/// The directory's bytes, or nothing.
+/// The directory's bytes, or nothing. The record that says where it is stands at the end of the file, but for
+/// a comment of any length up to 65535 bytes: it is searched for backwards.
 std::string read_directory(std::FILE* file) {
     const uint64_t size = size_of(file);
     const uint64_t tail_size = std::min<uint64_t>(size, kEndSize + kLongestComment);
@@ -92,6 +93,7 @@ std::optional<ZipMember> zip_member_named(const std::string& path) {
     return ZipMember{path.substr(0, mark), path.substr(mark + 1)};
 }
 
+/// Sizes come from a stranger's file: each is compared with what there is before memory is taken.
 std::optional<std::string> read_zip_member(const ZipMember& member, size_t max_bytes, std::string* error,
                                            const Access& access) {
     const InputFile file = open_archive(member.archive, access, error);

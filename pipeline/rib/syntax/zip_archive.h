@@ -12,6 +12,8 @@ namespace trapeze::rib {
 struct ZipMember {
     std::string archive, member;
 };
+
+/// By the name alone: neither the archive nor the member need be there.
 std::optional<ZipMember> zip_member_named(const std::string& path);
 
 /// The member's bytes, stored or deflated; never more than max_bytes. Otherwise nothing, and why. Archives

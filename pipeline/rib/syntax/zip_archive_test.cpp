@@ -4,7 +4,7 @@
 
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -62,15 +62,15 @@ const std::vector<Member> kMembers = {
     {"sub/c.rib", kSphere, true}};
 
 TEST(ZipArchives, NamesAreSplitAtTheMark) {
-    EXPECT_EQ(zip_member_named("x/job.zip!sub/b.rib")->archive, "x/job.zip");
-    EXPECT_EQ(zip_member_named("x/job.zip!sub/b.rib")->member, "sub/b.rib");
-    for (const char* name : {"a.rib", "!a", "a!", ""}) EXPECT_FALSE(zip_member_named(name)) << name;
+    EXPECT_EQ(rib::zip_member_named("x/job.zip!sub/b.rib")->archive, "x/job.zip");
+    EXPECT_EQ(rib::zip_member_named("x/job.zip!sub/b.rib")->member, "sub/b.rib");
+    for (const char* name : {"a.rib", "!a", "a!", ""}) EXPECT_FALSE(rib::zip_member_named(name)) << name;
 }
 
 TEST(ZipArchives, MembersAreReadStoredAndPacked) {
     const Folder folder;
     folder.write("job.zip", zip(kMembers));
-    const Outcome outcome =
+    const ReadOutcome outcome =
         read_files(folder, {folder.write("a.rib",
                                          "WorldBegin ReadArchive \"job.zip!a.rib\" Procedural2 "
                                          "\"DelayedReadArchive2\" \"SimpleBound\" \"string filename\" "
@@ -83,7 +83,7 @@ TEST(ZipArchives, WhatIsNotThereIsSaid) {
     const Folder folder;
     folder.write("job.zip", zip(kMembers));
     folder.write("empty.zip", "");
-    const Outcome outcome =
+    const ReadOutcome outcome =
         read_files(folder, {folder.write("a.rib",
                                          "WorldBegin ReadArchive \"job.zip!no.rib\" ReadArchive "
                                          "\"none.zip!a.rib\" ReadArchive \"empty.zip!a\" " +
@@ -98,10 +98,10 @@ TEST(ZipArchives, LimitsHold) {
     const std::string path = folder.write(
         "bomb.zip", zip({{"a", std::string(5000000, ' '), true}, {"b", std::string(2000, ' ')}}));
     std::string error;
-    EXPECT_FALSE(read_zip_member({path, "a"}, 1000000, &error));
+    EXPECT_FALSE(rib::read_zip_member({path, "a"}, 1000000, &error));
     EXPECT_THAT(error, HasSubstr("inflates to more than"));
-    EXPECT_TRUE(read_zip_member({path, "b"}, 2000, &error));
-    EXPECT_FALSE(read_zip_member({path, "b"}, 1999, &error));
+    EXPECT_TRUE(rib::read_zip_member({path, "b"}, 2000, &error));
+    EXPECT_FALSE(rib::read_zip_member({path, "b"}, 1999, &error));
 }
 
 TEST(ZipArchives, EveryPrefixAndEveryChangedByteEndsWithoutHarm) {
@@ -109,16 +109,17 @@ TEST(ZipArchives, EveryPrefixAndEveryChangedByteEndsWithoutHarm) {
     const std::string whole = zip(kMembers);
     std::string error;
     for (size_t length = 0; length < whole.size(); length += 3)
-        read_zip_member({folder.write("cut.zip", whole.substr(0, length)), "sub/c.rib"}, 100000, &error);
+        rib::read_zip_member({folder.write("cut.zip", whole.substr(0, length)), "sub/c.rib"}, 100000, &error);
     int read = 0;
     for (size_t at = 0; at < whole.size(); ++at) {
         std::string changed = whole;
         changed[at] = static_cast<char>(changed[at] ^ 0xff);
-        read += read_zip_member({folder.write("changed.zip", changed), "sub/c.rib"}, 100000, &error) ? 1 : 0;
+        read +=
+            rib::read_zip_member({folder.write("changed.zip", changed), "sub/c.rib"}, 100000, &error) ? 1 : 0;
     }
     EXPECT_GT(read, 100);  // most bytes belong to other members
     EXPECT_LT(read, static_cast<int>(whole.size()));
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

@@ -25,6 +25,8 @@ bool reads_archive(const RequestText& request) {
 
 }  // namespace
 
+/// The answer of on_request decides: an archive's request that is not written is carried out, and what it
+/// reads is written in its place; one that is written is not.
 ReadSummary cat_rib(std::span<const std::string> files, const CatOptions& cat, Diagnostics& diagnostics,
                     const std::function<void(std::string_view)>& write) {
     std::unique_ptr<GzipWriter> gzip;

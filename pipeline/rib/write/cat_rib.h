@@ -7,6 +7,7 @@
 
 namespace trapeze::rib {
 
+/// Borrowed pointers have to live until cat_rib() returns.
 struct CatOptions {
     RibEncoding encoding = RibEncoding::Ascii;
     bool gzip = false;

@@ -48,6 +48,7 @@ void GzipWriter::add(std::string_view bytes) {
     }
 }
 
+/// Writes what zlib has kept, and gzip's checksum and length.
 void GzipWriter::finish() {
     state_->stream.next_in = nullptr;
     state_->stream.avail_in = 0;

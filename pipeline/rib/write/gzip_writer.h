@@ -16,6 +16,7 @@ class GzipWriter {
     GzipWriter(const GzipWriter&) = delete;
     GzipWriter& operator=(const GzipWriter&) = delete;
 
+    /// Compressed bytes come when zlib has enough of them, perhaps long after what they stand for.
     void add(std::string_view bytes);
     /// To be called once, at the end.
     void finish();

@@ -59,7 +59,8 @@ void RibWriter::begin_line() {
     in_line_ = true;
 }
 
-/// In binary the first use of a name defines a code for it, while there are codes: 256.
+/// In binary the first use of a name defines a code for it, while there are codes: 256. Indentation ends at
+/// 20 levels, so that damaged files of open blocks alone stay readable.
 void RibWriter::request(std::string_view name) {
     if (ends_block(name) && depth_ > 0) --depth_;
     if (encoding_ == RibEncoding::Ascii) {
@@ -84,7 +85,8 @@ void RibWriter::request(std::string_view name) {
     if (begins_block(name)) ++depth_;
 }
 
-/// ASCII only. Long lists are broken, and go on indented.
+/// ASCII only. Long lists are broken, and go on indented. The width is a wish: a line is broken behind the
+/// argument that went beyond it.
 void RibWriter::space() {
     if (encoding_ == RibEncoding::Binary) return;
     if (buffer_.size() - line_start_ > kLineWidth) {
@@ -96,6 +98,7 @@ void RibWriter::space() {
     }
 }
 
+/// The most significant byte first, as all of RISpec's encoding has it.
 void RibWriter::append_bytes(uint64_t value, int bytes) {
     for (int i = bytes; i-- > 0;) put(static_cast<char>(value >> (8 * i) & 0xff));
 }
@@ -129,7 +132,8 @@ void RibWriter::number(double value) {
     append_number(value);
 }
 
-/// Binary strings are bytes as they are; in text, quotes and backslashes are escaped.
+/// Binary strings are bytes as they are; in text, quotes and backslashes are escaped. Bytes beyond ASCII are
+/// written as they are: within quotes the reader takes them for characters and not for encoded values.
 void RibWriter::string(std::string_view text) {
     if (encoding_ == RibEncoding::Binary) {
         if (text.size() < 16) {
@@ -170,6 +174,8 @@ void RibWriter::numbers(std::span<const float> values) {
     put(']');
 }
 
+/// Arrays of floats would round large indices: each number is encoded by itself, in binary in as few bytes as
+/// it needs.
 void RibWriter::integers(std::span<const int> values) {
     space();
     put('[');

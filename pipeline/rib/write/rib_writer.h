@@ -14,8 +14,10 @@ namespace trapeze::rib {
 struct Argument;
 struct RequestText;
 
+/// Of the whole stream; the reader takes both, mixed as they like.
 enum class RibEncoding { Ascii, Binary };
 
+/// Keeps order and nothing else: whether a request exists and its arguments fit is not looked at.
 class RibWriter {
   public:
     /// `write` takes the bytes as they come; it is called with some kilobytes at a time.
@@ -26,6 +28,7 @@ class RibWriter {
 
     /// Begins a request; its arguments follow. In ASCII it is indented by the blocks that are open.
     void request(std::string_view name);
+    /// A number without brackets.
     void number(double value);
     void string(std::string_view text);
     void numbers(std::span<const float> values);  ///< an array
@@ -37,6 +40,8 @@ class RibWriter {
 
     /// A whole request, as it was read.
     void write(const RequestText& request);
+    /// Hands on all that there is. The destructor does so too, but must not throw: where `write` may, call it
+    /// before.
     void flush();
 
   private:

@@ -10,22 +10,22 @@
 #include "pipeline/rib/requests/request_table.h"
 #include "pipeline/rib/write/gzip_writer.h"
 
-namespace trapeze::rib::testing {
+namespace trapeze::testing {
 namespace {
 
-std::string written(RibEncoding encoding, const std::function<void(RibWriter&)>& write) {
+std::string written(rib::RibEncoding encoding, const std::function<void(rib::RibWriter&)>& write) {
     std::string text;
-    RibWriter writer(encoding, [&](std::string_view bytes) { text += bytes; });
+    rib::RibWriter writer(encoding, [&](std::string_view bytes) { text += bytes; });
     write(writer);
     writer.flush();
     return text;
 }
 
-std::vector<RequestText> requests_in(const std::string& text) {
+std::vector<rib::RequestText> requests_in(const std::string& text) {
     Diagnostics diagnostics([](const Diagnostic& d) { ADD_FAILURE() << to_string(d); });
-    Lexer lexer(text, {diagnostics.add_source("a.rib", {}), 1, 1});
-    std::vector<RequestText> requests;
-    for (RequestText request; read_request(lexer, request, is_request, diagnostics);) {
+    rib::Lexer lexer(text, {diagnostics.add_source("a.rib", {}), 1, 1});
+    std::vector<rib::RequestText> requests;
+    for (rib::RequestText request; rib::read_request(lexer, request, rib::is_request, diagnostics);) {
         EXPECT_EQ(request.problem, "");
         requests.push_back(request);
     }
@@ -33,7 +33,7 @@ std::vector<RequestText> requests_in(const std::string& text) {
 }
 
 TEST(RibWriter, AsciiIsIndentedByBlocksAndWrapped) {
-    const std::string text = written(RibEncoding::Ascii, [](RibWriter& w) {
+    const std::string text = written(rib::RibEncoding::Ascii, [](rib::RibWriter& w) {
         w.comment("##RenderMan RIB-Structure 1.1");
         w.request("WorldBegin");
         w.request("Color"), w.numbers(std::vector<float>{1, 0.5f, 0.1f});
@@ -50,7 +50,7 @@ TEST(RibWriter, AsciiIsIndentedByBlocksAndWrapped) {
               "  Display [\"x\" \"\"]\n"
               "  PointsPolygons [3 16777217]\n"
               "WorldEnd\n");
-    const std::string many = written(RibEncoding::Ascii, [](RibWriter& w) {
+    const std::string many = written(rib::RibEncoding::Ascii, [](rib::RibWriter& w) {
         w.request("Sphere"), w.numbers(std::vector<float>(500, 1.25f));
     });
     for (size_t at = 0, end; (end = many.find('\n', at)) != std::string::npos; at = end + 1)
@@ -76,8 +76,8 @@ TEST(RibWriter, WhatIsWrittenReadsBack) {
                                               std::string(300, 'x'),
                                               std::string(70000, 'y'),
                                               "\" \\ \n \t é"};
-    for (const RibEncoding encoding : {RibEncoding::Ascii, RibEncoding::Binary}) {
-        const auto requests = requests_in(written(encoding, [&](RibWriter& w) {
+    for (const rib::RibEncoding encoding : {rib::RibEncoding::Ascii, rib::RibEncoding::Binary}) {
+        const auto requests = requests_in(written(encoding, [&](rib::RibWriter& w) {
             w.request("Polygon"), w.numbers(floats);
             w.request("Sphere");
             for (const double n : numbers) w.number(n);
@@ -109,10 +109,10 @@ TEST(RibWriter, WhatIsWrittenReadsBack) {
 TEST(RibWriter, ReadRequestsAreWrittenAgain) {
     const std::string text =
         "PointsPolygons [3] [0 1 2] \"P\" [0 0 0 1 0 0 0 1 0] \"int id\" [123456789] Color 1 0 .1\n";
-    for (const RibEncoding encoding : {RibEncoding::Ascii, RibEncoding::Binary}) {
+    for (const rib::RibEncoding encoding : {rib::RibEncoding::Ascii, rib::RibEncoding::Binary}) {
         const auto again = [&](const std::string& from) {
-            return written(encoding, [&](RibWriter& w) {
-                for (const RequestText& request : requests_in(from)) w.write(request);
+            return written(encoding, [&](rib::RibWriter& w) {
+                for (const rib::RequestText& request : requests_in(from)) w.write(request);
             });
         };
         const std::string once = again(text);
@@ -129,7 +129,7 @@ TEST(GzipWriter, WhatIsPackedUnpacks) {
     std::string text;
     for (int i = 0; i < 200000; ++i) text += std::to_string(i * 7919 % 1000) + " ";
     std::string packed;
-    GzipWriter gzip([&](std::string_view bytes) { packed += bytes; });
+    rib::GzipWriter gzip([&](std::string_view bytes) { packed += bytes; });
     gzip.add(std::string_view(text).substr(0, 1000));
     gzip.add({});
     gzip.add(std::string_view(text).substr(1000));
@@ -147,4 +147,4 @@ TEST(GzipWriter, WhatIsPackedUnpacks) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::testing
+}  // namespace trapeze::testing

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "pipeline/frame/make_context.h"
 #include "pipeline/frame/render_frame.h"
 #include "pipeline/rib/read_rib.h"
 

@@ -16,16 +16,20 @@ namespace {
 // Bounds a call's cost, which is compared with every function of its name.
 constexpr size_t kMostOverloads = 32;  // written functions of one name
 
+/// Names from the source are cut, for a message must not grow with a file from a stranger.
 std::string in_quotes(std::string_view name) {
     return "\"" + std::string(name.substr(0, 80)) + "\"";
 }
 
-/// Makes all that name a variable name another one.
+/// Makes all that name a variable name another one. The name in the text stays: the new variable has the same
+/// one.
 void replace_variable(Expression& e, const Variable* old, Variable* now) {
     if (e.variable == old) e.variable = now;
     for (const ExpressionPtr& child : e.children) replace_variable(*child, old, now);
 }
 
+/// Functions that are nested in the statement are the caller's to look at: their bodies stand elsewhere in
+/// the tree.
 void replace_variable(Statement& s, const Variable* old, Variable* now) {
     for (const ExpressionPtr& e : s.expressions)
         if (e) replace_variable(*e, old, now);
@@ -97,7 +101,9 @@ void Analyser::analyse_shader(Shader& shader) {
     for (Instance& instance : instances_) kept_.push_back(std::move(instance.function));
 }
 
-/// A copy of the function for this shader, analysed; null after an error that concerns the call.
+/// A copy of the function for this shader, analysed; null after an error that concerns the call. Copies are
+/// limited in number and depth, as calls are inlined: a few functions that each call the one before twice
+/// would make a program of any size.
 Analyser::Instance* Analyser::instance_of(const Function& original, bool nested, SourceLocation at) {
     if (depth_ + body().depth + height_ > kDeepestInlined) {
         error(at, "functions that call functions nest too deeply here");
@@ -147,7 +153,8 @@ Analyser::Instance* Analyser::instance_of(const Function& original, bool nested,
     return &instance;
 }
 
-/// A function's parameters and statements, as the innermost body.
+/// A function's parameters and statements, as the innermost body. The scope of the parameters stays open for
+/// whoever called this, and is closed with the body.
 void Analyser::analyse_body(Function& function) {
     scopes_.emplace_back();
     for (const auto& parameter : function.parameters) {
@@ -220,6 +227,8 @@ void Analyser::declare(Variable& variable) {
 }
 
 /// An array without a length has that of its list of values; bounds keep a shader from wanting all memory.
+/// All arrays of a body are counted together, with those of the functions that are inlined into it: each lane
+/// has them all.
 void Analyser::check_array(Variable& variable) {
     if (!variable.type.is_array()) return;
     if (variable.type.length == Type::kUnsized) {
@@ -257,7 +266,8 @@ void Analyser::initial_value(Variable& variable) {
     }
 }
 
-/// A list, another array, or one value for all elements.
+/// A list, another array, or one value for all elements. Fewer values than elements leave the rest 0; more
+/// are an error, since some were meant and would be lost.
 void Analyser::value_of_array(Variable& variable) {
     // Without braces: an array that is copied, or one value for all.
     if (variable.initial->kind != Expression::Kind::List) {
@@ -281,7 +291,8 @@ void Analyser::value_of_array(Variable& variable) {
     variable.initial->type = variable.type;
 }
 
-/// Makes a name of outside known in this scope; false, after a report, when there is none.
+/// Makes a name of outside known in this scope; false, after a report, when there is none. After an error of
+/// kind the name is bound all the same: one message is enough.
 bool Analyser::bind_external(const Variable& variable) {
     Variable* found =
         bodies_.size() == 1 ? find_variable(variable.name) : find_outside(variable.name, bodies_.size() - 1);
@@ -329,7 +340,8 @@ Variable* Analyser::find_outside(std::string_view name, size_t number) {
     return inner.nested ? find_outside(name, number - 1) : nullptr;
 }
 
-/// The renderer's variable of that name, made when it is first named; null when there is none.
+/// The renderer's variable of that name, made when it is first named; null when there is none. Only those
+/// that a shader uses are made, so that the machine has to fill no others.
 Variable* Analyser::global(std::string_view name) {
     const auto entry = globals_.find(name);
     if (entry != globals_.end()) return entry->second;

@@ -115,7 +115,8 @@ void Analyser::block(Statement& s) {
     if (!s.open) scopes_.pop_back();
 }
 
-/// extern variables mean those of outside and leave the tree; all others are new.
+/// extern variables mean those of outside and leave the tree; all others are new. One after another, so that
+/// "float a = 1, b = a" means what it says.
 void Analyser::declaration(Statement& s) {
     std::vector<std::unique_ptr<Variable>> kept;
     for (auto& variable : s.variables) {
@@ -144,7 +145,9 @@ void Analyser::loop(Statement& s) {
     --body().loops;
 }
 
-/// "name", value, ... behind the arguments of a loop over lights or of a light's block.
+/// "name", value, ... behind the arguments of a loop over lights or of a light's block. They are known by a
+/// string literal from which on names and values pair up to the end; categories are strings, too, and so a
+/// lone one stays.
 void Analyser::ignore_options(Statement& s, const std::string& word) {
     const size_t given = s.expressions.size();
     for (size_t i = s.kind == Statement::Kind::Solar ? 0 : 1; i < given; ++i) {
@@ -155,7 +158,9 @@ void Analyser::ignore_options(Statement& s, const std::string& word) {
     }
 }
 
-/// illuminance([category,] P [, axis, angle]), illuminate(P [, axis, angle]), solar([axis, angle]).
+/// illuminance([category,] P [, axis, angle]), illuminate(P [, axis, angle]), solar([axis, angle]). The
+/// category's type is found by trial: possible types are asked for, and forgotten again, before the arguments
+/// are analysed for good.
 void Analyser::light_loop(Statement& s) {
     const bool illuminance = s.kind == Statement::Kind::Illuminance;
     const std::string word = illuminance                             ? "illuminance"
@@ -227,7 +232,8 @@ void Analyser::gather(Statement& s) {
     --body().loops;
 }
 
-/// break and continue, which may name a loop further out by its number.
+/// break and continue, which may name a loop further out by its number. Loops of a function that is called do
+/// not count: no jump leaves a function.
 void Analyser::jump(const Statement& s) {
     const std::string word = s.kind == Statement::Kind::Break ? "break" : "continue";
     if (body().loops == 0)
@@ -237,7 +243,8 @@ void Analyser::jump(const Statement& s) {
                         std::to_string(body().loops) + (body().loops == 1 ? " loop" : " loops"));
 }
 
-/// A value in a function that has a type, none in others and in shaders.
+/// A value in a function that has a type, none in others and in shaders. In a shader's own body a return
+/// without a value ends the shader.
 void Analyser::return_statement(Statement& s) {
     const Base result = body().instance ? body().instance->function->result.base : Base::Void;
     body().returns = body().returns || !s.expressions.empty();

@@ -27,7 +27,8 @@ class Analyser {
     void run();
 
   private:
-    /// A function as one shader uses it.
+    /// A function as one shader uses it. It is `complete` when its body has been analysed: a call that meets
+    /// it before is a recursion, which the language does not have.
     struct Instance {
         std::unique_ptr<Function> function;
         const Function* original = nullptr;
@@ -35,7 +36,8 @@ class Analyser {
         uint64_t operations = 0, array_floats = 0;  ///< with those of the functions it calls
         int depth = 0;                              ///< of its tree, likewise
     };
-    /// What is declared between two braces, by name.
+    /// What is declared between two braces, by name. Keys are views of the names in the tree, which outlives
+    /// the analysis.
     struct Scope {
         std::unordered_map<std::string_view, Variable*> variables;
         std::unordered_map<std::string_view, std::vector<Instance*>> functions;
@@ -54,7 +56,8 @@ class Analyser {
         std::set<Variable*> written_parameters;     ///< not output, and assigned to
     };
 
-    // Shaders, functions and names.
+    // Shaders, functions and names: analyse.cpp. Bodies nest as functions are entered from calls in the
+    // middle of an expression; scopes of all of them are on one stack.
     void analyse_shader(Shader& shader);
     void analyse_body(Function& function);
     Instance* instance_of(const Function& original, bool nested, SourceLocation at);
@@ -64,13 +67,16 @@ class Analyser {
     bool bind_external(const Variable& variable);
     void check_array(Variable& variable);
     void initial_value(Variable& variable);
+    /// Look-ups return null for an unknown name and report nothing; unknown_variable() does that, with what
+    /// was probably meant.
     Variable* find_variable(std::string_view name);
     Variable* find_outside(std::string_view name, size_t number);
     Variable* global(std::string_view name);
     void unknown_variable(const Expression& e);
     Body& body() { return bodies_.back(); }
 
-    // Statements.
+    // Statements: analyse_statements.cpp. They are handed over by their pointers where one may be replaced by
+    // another.
     void statement(StatementPtr& s);
     void scoped(StatementPtr& s);
     void block(Statement& s);
@@ -79,6 +85,8 @@ class Analyser {
     void light_loop(Statement& s);
     void ignore_options(Statement& s, const std::string& word);
     void gather(Statement& s);
+    /// Names that rays do not know are warned of here, where they are constants: a run would find out only
+    /// when a ray is sent.
     void check_ray_arguments(const Expression& call, const Signature& signature);
     void check_ray_argument(std::string_view call, SourceLocation at, const Expression& name,
                             const Expression& value);
@@ -105,6 +113,7 @@ class Analyser {
     Choices tuple_types(Expression& e);
     Choices call_types(Expression& e);
     Choices choices_of(const Expression& e) const;
+    /// Questions that choose between readings of one syntax; they report nothing.
     bool is_component(const Expression& e) const;
     /// Whether an expression names something that can be written to.
     bool is_place(const Expression& e) const;
@@ -120,6 +129,7 @@ class Analyser {
     void choose_array_assignment(Expression& e);
     void choose_call(Expression& e, Base base);
     void choose_argument(Expression& call, size_t i, const Signature& signature);
+    /// The only place where casts that the source does not name come into the tree.
     void convert(ExpressionPtr& e, Base to);
     void check_written(const Expression& place);
 
@@ -130,6 +140,7 @@ class Analyser {
     int cost_of(const Signature& signature, const Expression& call, bool as_they_are) const;
     int cost_of_argument(const Signature::Parameter& parameter, const Expression& argument) const;
     bool becomes_as_it_is(const Signature::Parameter& parameter, const Expression& argument) const;
+    /// From here on: messages about calls that fit nothing, and what follows from one that fits.
     bool lacks_knots(const Expression& call);
     void explain(std::vector<Signature> all, const Expression& call);
     void unknown_function(const Expression& call);

@@ -8,12 +8,10 @@
 
 #include "shade/rsl/front_end_harness.h"
 
-namespace trapeze::rsl {
+namespace trapeze::testing {
 
-using testing::Heard;
-
-inline std::unique_ptr<TranslationUnit> compiled(const std::string& text, Heard& heard) {
-    return compile_front({"t.sl", text}, {}, heard.diagnostics);
+inline std::unique_ptr<rsl::TranslationUnit> compiled(const std::string& text, Heard& heard) {
+    return rsl::compile_front({"t.sl", text}, {}, heard.diagnostics);
 }
 
 /// All that is said of a source.
@@ -28,4 +26,4 @@ inline std::string in_surface(const std::string& body) {
     return said("surface t(float Kd = 1; string map = \"\"; varying color tint = 1) {" + body + "}");
 }
 
-}  // namespace trapeze::rsl
+}  // namespace trapeze::testing

@@ -6,6 +6,11 @@
 namespace trapeze::rsl {
 namespace {
 
+using testing::compiled;
+using testing::Heard;
+using testing::in_surface;
+using testing::said;
+
 TEST(Analysis, LocalsShadowAndEnd) {
     EXPECT_EQ(in_surface("float s = s * 2; { float s = s; } Ci = s;"), "");
     EXPECT_EQ(in_surface("{ float q = 1; } Ci = q;"), "error 1:89: there is no variable \"q\"\n");

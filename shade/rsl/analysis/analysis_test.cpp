@@ -10,6 +10,11 @@
 namespace trapeze::rsl {
 namespace {
 
+using testing::compiled;
+using testing::Heard;
+using testing::in_surface;
+using testing::said;
+
 /// The letters of builtins.h for a type, and b for a truth.
 char letter(const Type& type) {
     static constexpr char kLetters[] = "wbfcpvnms";
@@ -237,13 +242,34 @@ TEST(Analysis, ArgumentsOfRaysAreChecked) {
         "warning 1:84: \"hitsides\" of trace() knows \"front\", \"back\", \"both\", not \"sideways\"\n");
     EXPECT_NE(in_surface("gather(\"x\", P, N, .1, 4, \"distribution\", \"gaussian\") ;"), "");
     EXPECT_NE(in_surface("Ci = environment(\"raytrace\", N, \"smaples\", 4);"), "");
-    // Of PRMan, and of maps: nothing changes, and nothing is said.
+    EXPECT_EQ(traced("\"excludesubset\", \"a\", \"hitsides\", \"\", \"othreshold\", color(1)"), "");
+    EXPECT_EQ(in_surface("float d = 0; Ci = occlusion(P, N, 4, \"minsamples\", 9, \"hitdist\", d);"), "");
+    // Hints of quality ask for no more than is so.
+    EXPECT_EQ(traced("\"maxpixeldist\", 20, \"maxvariation\", .1, \"maxerror\", .1, \"adaptive\", 1"), "");
+}
+
+/// Of PRMan, and of maps: what is wanted would change the picture, and is not made.
+TEST(Analysis, ArgumentsOfRaysWithoutEffectAreNamed) {
+    const auto traced = [](const std::string& given) {
+        return in_surface("Ci = trace(P, N, " + given + ");");
+    };
+    EXPECT_EQ(traced("\"maxhits\", 3"), "warning 1:84: \"maxhits\" of trace() has no effect\n");
+    EXPECT_EQ(traced("\"raytype\", \"diffuse\", \"weight\", Cs"),
+              "warning 1:84: \"raytype\" of trace() has no effect\n"
+              "warning 1:106: \"weight\" of trace() has no effect\n");
+    for (const char* output : {"transmission", "radiosity", "surfacecolor", "occlusion", "hitdist"})
+        EXPECT_EQ(traced("\"" + std::string(output) + "\", Ci"),
+                  "warning 1:84: \"" + std::string(output) + "\" of trace() has no effect\n");
+    EXPECT_NE(in_surface("gather(\"x\", P, N, .1, 4, \"weight\", 1) ;"), "");
+    const auto reflected = [](const std::string& given) {
+        return in_surface("Ci = environment(\"raytrace\", N, " + given + ");");
+    };
     EXPECT_EQ(
-        traced(
-            "\"maxpixeldist\", 20, \"excludesubset\", \"a\", \"hitsides\", \"\", \"othreshold\", color(1)"),
-        "");
-    EXPECT_EQ(
-        in_surface("Ci = environment(\"raytrace\", N, \"blur\", .1) + environment(\"a\", N, \"x\", 1);"), "");
+        reflected("\"blur\", .1"),
+        "warning 1:99: \"blur\" of environment() has no effect on rays, which \"samplecone\" spreads\n");
+    EXPECT_NE(reflected("\"sblur\", u"), "");
+    EXPECT_EQ(reflected("\"blur\", 0, \"width\", 2"), "");
+    EXPECT_EQ(in_surface("Ci = environment(\"a\", N, \"blur\", .1, \"x\", 1);"), "");
 }
 
 TEST(Analysis, GlobalsAreMadeWhenNamed) {

@@ -294,7 +294,9 @@ constexpr Builtin kBuiltins[] = {
     {"rayhittest", 'f', ".", Op::Unavailable},
 };
 
-constexpr std::string_view kRayOutputs[] = {"environmentcolor", "environmentdir", "occlusion"};
+/// Names among the optional arguments of occlusion() and indirectdiffuse() that are followed by a variable to
+/// be set.
+constexpr std::string_view kRayOutputs[] = {"environmentcolor", "environmentdir", "hitdist", "occlusion"};
 /// Arguments of texture3d() that are no channels.
 constexpr std::string_view kCloudInputs[] = {"coordsystem", "filterradius", "filterscale", "maxdepth",
                                              "lerp"};
@@ -303,6 +305,7 @@ using ByName = std::unordered_map<std::string_view, std::span<const Builtin>>;
 
 /// The runs of rows that share a name.
 /// Made once: a span of rows for every name. That rows of a name stand together is what makes it one span.
+/// Views into the table, which is static.
 ByName by_name() {
     ByName map;
     const std::span<const Builtin> all(kBuiltins);

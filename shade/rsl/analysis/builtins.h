@@ -29,6 +29,8 @@ struct Builtin {
 constexpr bool is_output_letter(char letter) {
     return letter == '?' || (letter >= 'A' && letter <= 'Z');
 }
+
+/// By its parameters alone: what optional arguments set is sets_by_name()'s to tell.
 constexpr bool sets_arguments(const Builtin& builtin) {
     return std::ranges::any_of(builtin.parameters, is_output_letter);
 }

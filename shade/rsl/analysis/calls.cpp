@@ -43,7 +43,9 @@ bool is_pair_name(const Signature& signature, size_t i) {
 
 }  // namespace
 
-/// All functions that the name may mean, those of the source first.
+/// All functions that the name may mean, those of the source first. Nested functions see those of the bodies
+/// around them, but a function of the file sees none of its caller's: the walk outwards ends at the first
+/// body that is not nested.
 std::vector<Signature> Analyser::candidates(const Expression& call) {
     std::vector<Signature> all;
     for (size_t number = bodies_.size();;) {  // nested ones, from the inside out
@@ -63,6 +65,7 @@ std::vector<Signature> Analyser::candidates(const Expression& call) {
 }
 
 /// What converting an argument to its parameter costs. Arrays and output arguments are not converted at all.
+/// An argument of unknown type costs nothing: it has been reported, and must not make further messages.
 int Analyser::cost_of_argument(const Signature::Parameter& parameter, const Expression& argument) const {
     const Choices choices = choices_of(argument);
     if (choices.is_unknown()) return 0;
@@ -120,7 +123,9 @@ int Analyser::cost_of(const Signature& signature, const Expression& call, bool a
     return std::min(cost, Choices::kNever - 1);
 }
 
-/// Every overload that fits offers its result type, at what its arguments cost.
+/// Every overload that fits offers its result type, at what its arguments cost. What a call's result may be
+/// depends on where it stands as much as on its arguments: noise() may be a float, a colour or a point. So
+/// all that fit are offered upwards, and one is chosen on the way back.
 Choices Analyser::call_types(Expression& e) {
     const std::vector<Signature> all = candidates(e);
     // A texture's name may have a channel.
@@ -162,7 +167,8 @@ bool Analyser::lacks_knots(const Expression& call) {
     return true;
 }
 
-/// Says what is wrong with the one function that a call can mean, or lists all of the specification.
+/// Says what is wrong with the one function that a call can mean, or lists all of the specification:
+/// overloads beyond that are not shown, as nobody should learn them from a message.
 void Analyser::explain(std::vector<Signature> all, const Expression& call) {
     std::erase_if(all, [](const Signature& s) { return s.builtin && s.builtin->last_resort; });
     if (all.back().builtin && all.back().builtin->op == Op::Spline && lacks_knots(call)) return;
@@ -197,7 +203,8 @@ void Analyser::explain(std::vector<Signature> all, const Expression& call) {
         reporter_.note(call.at, "and " + std::to_string(all.size() - kMostCandidatesShown) + " more");
 }
 
-/// Says that there is no such function, and which name was meant, if one is near.
+/// Says that there is no such function, and which name was meant, if one is near. Names of the source and of
+/// the language are both considered; the nearest is shown.
 void Analyser::unknown_function(const Expression& call) {
     const std::string name = "\"" + call.text.substr(0, 80) + "\"";
     if (std::find(std::begin(kNotSupported), std::end(kNotSupported), call.text) != std::end(kNotSupported)) {
@@ -237,7 +244,8 @@ void Analyser::choose_call(Expression& e, Base base) {
                           "function \"" + e.text + "\" of later renderers is not there, and does nothing");
 }
 
-/// Named optional arguments may be of any type; output arguments must be places, and stay what they are.
+/// Named optional arguments may be of any type; output arguments must be places, and stay what they are. An
+/// output argument is not converted, since the value that comes back could not be.
 void Analyser::choose_argument(Expression& call, size_t i, const Signature& signature) {
     ExpressionPtr& argument = call.children[i];
     const Signature::Parameter* parameter = parameter_at(signature, i);
@@ -253,7 +261,8 @@ void Analyser::choose_argument(Expression& call, size_t i, const Signature& sign
     }
 }
 
-/// Finds or makes this shader's copy of a written function.
+/// Finds or makes this shader's copy of a written function. A copy that is not complete is being analysed
+/// further out: it calls itself, which RSL does not allow, as calls are inlined.
 void Analyser::enter_function(Expression& call, const Function& function) {
     // A nested function was copied where it was declared, one of the file is copied at its first call.
     const auto nested = instance_of_copy_.find(&function);
@@ -275,7 +284,8 @@ void Analyser::enter_function(Expression& call, const Function& function) {
         error(call.at, "functions that call functions nest too deeply here");
 }
 
-/// Variables of the renderer that the source does not name, and that the function reads.
+/// Variables of the renderer that the source does not name, and that the function reads. They are made as if
+/// the shader had named them, so that the machine fills them before the run.
 void Analyser::use_globals(const Expression& call) {
     const Op op = call.builtin->op;
     const size_t given = call.children.size();

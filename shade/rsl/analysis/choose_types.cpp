@@ -39,7 +39,8 @@ void Analyser::choose_array_assignment(Expression& e) {
     e.children[1]->type = e.type;
 }
 
-/// Puts an implicit cast around an expression of another type.
+/// Puts an implicit cast around an expression of another type. Heights are kept right, since they bound how
+/// deep later passes recurse.
 void Analyser::convert(ExpressionPtr& e, Base to) {
     if (e->type.base == to) return;
     auto cast = std::make_unique<Expression>();
@@ -52,7 +53,9 @@ void Analyser::convert(ExpressionPtr& e, Base to) {
     e = std::move(cast);
 }
 
-/// Gives an expression the type, which is one of its choices, and its operands those that lead there.
+/// Gives an expression the type, which is one of its choices, and its operands those that lead there. The
+/// second of two walks: possible types went from the leaves up, the chosen one goes from the root down. A
+/// node whose choice was offered by a conversion gets that as a node of its own (choose_type()).
 void Analyser::give_type(Expression& e, Base base) {
     e.type.base = base;
     switch (e.kind) {

@@ -12,6 +12,7 @@ namespace {
 // are seldom meant (products of vectors).
 constexpr int kSameFamily = 1, kUnusual = 2, kTruth = 3, kFill = 4, kFillMatrix = 5, kOdd = 6;
 
+/// What coordinate systems move: points, vectors and normals.
 bool is_geometric(Base base) {
     return base == Base::Point || base == Base::Vector || base == Base::Normal;
 }
@@ -35,6 +36,8 @@ std::optional<OperatorPlan> plan_sum(Operator op, Base a, Base b) {
 }
 
 /// a * b and a / b: by component for triples, of matrices for matrices; a float beside a matrix becomes one.
+/// Products of points and vectors by component are not RISpec's, but shaders have them: they cost more than
+/// all that is.
 std::optional<OperatorPlan> plan_product(Base a, Base b) {
     if (a == Base::Float && b == Base::Float) return OperatorPlan{a, a, b, 0};
     if (a == Base::Float && is_triple(b)) return OperatorPlan{b, a, b, b == Base::Color ? kSameFamily : 0};
@@ -79,7 +82,9 @@ std::optional<OperatorPlan> plan_logic(Base a, Base b) {
     return OperatorPlan{Base::Bool, Base::Bool, Base::Bool, *left + *right};
 }
 
-/// Every operator but && and ||, on types other than Bool.
+/// Every operator but && and ||, on types other than Bool. A plan says what both operands are converted to,
+/// what comes out, and what of that RISpec does not have, as a cost; nothing where the operator has no
+/// meaning.
 std::optional<OperatorPlan> plan_values(Operator op, Base a, Base b) {
     switch (op) {
         case Operator::Add:
@@ -135,6 +140,8 @@ std::optional<int> conversion_cost(Base from, Base to) {
     return {};
 }
 
+/// The sum of a choice's own cost and of converting it, over all choices; kept from exceeding kNever, which
+/// would overflow when added up.
 int Choices::cost_to(Base to) const {
     if (unknown_) return 0;
     int least = kNever;
@@ -144,7 +151,9 @@ int Choices::cost_to(Base to) const {
     return std::min(least, kNever);
 }
 
-/// The cheapest choice that can become `to`; among equals the first of kAllBases.
+/// The cheapest choice that can become `to`; among equals the first of kAllBases. Strictly cheaper ones alone
+/// replace a choice, which makes the order of kAllBases part of the language here. Void asks for whatever is
+/// cheapest.
 std::optional<Base> Choices::best_for(Base to) const {
     if (unknown_) return to;
     std::optional<Base> best;
@@ -158,6 +167,8 @@ std::optional<Base> Choices::best_for(Base to) const {
     return best;
 }
 
+/// Only asked where no conversion leads to `to`: real shaders assign colours to vectors and compute on, and
+/// are warned instead of refused.
 std::optional<Base> Choices::foreign_triple_for(Base to) const {
     if (unknown_ || !is_triple(to) || cost_to(to) < kNever) return {};
     std::optional<Base> best;
@@ -177,6 +188,8 @@ std::string Choices::text() const {
     return text;
 }
 
+/// && and || go first: they take operands as conditions, before truth would be counted as a number. The cost
+/// makes a plan without truth values win wherever there is one.
 std::optional<OperatorPlan> plan(Operator op, Base left, Base right) {
     if (op == Operator::And || op == Operator::Or) return plan_logic(left, right);
     // Truth counts as 1 or 0 in sums and comparisons.
@@ -187,6 +200,7 @@ std::optional<OperatorPlan> plan(Operator op, Base left, Base right) {
     return planned;
 }
 
+/// In the order of enum Operator.
 std::string_view text_of(Operator op) {
     static constexpr std::string_view kMarks[] = {
         "", "+", "-", "*", "/", ".", "^", "<", "<=", ">", ">=", "==", "!=", "&&", "||", "-", "!"};

@@ -21,7 +21,8 @@ bool is_triple(Base base);
 bool same_family(Base a, Base b);
 
 /// The types that an expression can have before its surroundings decide, each with what choosing it costs:
-/// conversions within it that the source does not name.
+/// conversions within it that the source does not name. A value of a few words, copied freely: one for each
+/// expression is kept from the first walk to the second.
 class Choices {
   public:
     /// A cost that no sum of conversions reaches, and of which a few can be added without running over.

@@ -78,7 +78,8 @@ constexpr GlobalVariable kImager[] = {
 
 }  // namespace
 
-/// The tables live as long as the program, so that variables may view their names.
+/// The tables live as long as the program, so that variables may view their names. Tables 12.1 to 12.5 of
+/// RISpec 3.2, with what is said above of each.
 std::span<const GlobalVariable> global_variables(ShaderKind kind) {
     switch (kind) {
         case ShaderKind::Surface:
@@ -95,6 +96,7 @@ std::span<const GlobalVariable> global_variables(ShaderKind kind) {
     return {};
 }
 
+/// A linear search, asked once for each name that a shader uses.
 const GlobalVariable* find_global(ShaderKind kind, std::string_view name) {
     const std::span<const GlobalVariable> all = global_variables(kind);
     const auto row =

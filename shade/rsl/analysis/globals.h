@@ -9,6 +9,8 @@
 namespace trapeze::rsl {
 
 /// A row of the tables. Not writable ones may be assigned to with a warning: the shader works on a copy.
+/// Storage is that of the tables; what a variable varies over when the shader runs is infer_storage()'s to
+/// find.
 struct GlobalVariable {
     std::string_view name;
     Base base;

@@ -88,7 +88,7 @@ Choices Analyser::possible_types_within(Expression& e) {
 }
 
 /// A variable's own type: the innermost of its name, then the renderer's, then what encloses a nested
-/// function.
+/// function. PI becomes a number here, unless the shader has a variable of that name.
 Choices Analyser::variable_types(Expression& e) {
     e.variable = find_variable(e.text);
     if (!e.variable && e.text == "PI") {
@@ -107,7 +107,8 @@ Choices Analyser::variable_types(Expression& e) {
     return e.type.is_array() ? Choices() : Choices(e.type.base);
 }
 
-/// True for v[k] of a triple and m[i][j] of a matrix, which are other words for comp.
+/// True for v[k] of a triple and m[i][j] of a matrix, which are other words for comp. A triple written out,
+/// as (a, b, c)[1], is not among them: its type is still open.
 bool Analyser::is_component(const Expression& e) const {
     const Expression& of = *e.children[0];
     if (of.type.is_array()) return false;
@@ -156,7 +157,8 @@ Choices Analyser::element_types(Expression& e) {
     return Choices(of.type.base);
 }
 
-/// Only an index that is a constant can be judged; the machine clamps all others.
+/// Only an index that is a constant can be judged; the machine clamps all others. RSL leaves indices outside
+/// of an array undefined: here a constant one is an error.
 void Analyser::check_index(const Expression& element) {
     const int length = element.children[0]->type.length;
     const Expression* index = element.children[1].get();
@@ -178,7 +180,8 @@ static bool is_whole_array(const Expression& e, Reporter& reporter) {
     return true;
 }
 
-/// All results that the operator gives for pairs of types that its operands can have.
+/// All results that the operator gives for pairs of types that its operands can have. Two operands of several
+/// possible types each make at most some tens of pairs; the cheapest plan for each result is what is offered.
 Choices Analyser::binary_types(Expression& e) {
     const Choices left = possible_types(*e.children[0]), right = possible_types(*e.children[1]);
     const bool arrays =
@@ -196,7 +199,8 @@ Choices Analyser::binary_types(Expression& e) {
     return Choices::unknown();
 }
 
-/// The types that both values can become.
+/// The types that both values can become. Where one value is unknown, after an error, the other decides
+/// alone.
 Choices Analyser::conditional_types(Expression& e) {
     const Choices condition = possible_types(*e.children[0]);
     const Choices yes = possible_types(*e.children[1]), no = possible_types(*e.children[2]);
@@ -217,7 +221,8 @@ Choices Analyser::conditional_types(Expression& e) {
     return Choices::unknown();
 }
 
-/// (a, b, c) may be any triple, and what it is is decided by where it stands.
+/// (a, b, c) may be any triple, and what it is is decided by where it stands. Braces make arrays, and stand
+/// only where an array is declared or assigned.
 Choices Analyser::tuple_types(Expression& e) {
     if (e.kind == Expression::Kind::List) {
         error(e.at, "values in braces stand only where an array is declared");
@@ -258,7 +263,9 @@ bool Analyser::is_place(const Expression& e) const {
            (e.kind == Expression::Kind::Element && e.children[0]->kind == Expression::Kind::Variable);
 }
 
-/// v[k] = x, which has been read as comp(v, k), as setcomp(v, k, x); v[k] += x with comp(v, k) + x.
+/// v[k] = x, which has been read as comp(v, k), as setcomp(v, k, x); v[k] += x with comp(v, k) + x. Later
+/// stages know one way to set a component. The index is read twice for +=, as a copy of its expression, so
+/// one that has an effect has it twice.
 Choices Analyser::component_assignment_types(Expression& e) {
     if (!is_place(*e.children[0]->children[0])) {
         error(e.children[0]->at, "this cannot be assigned to");
@@ -285,7 +292,8 @@ Choices Analyser::component_assignment_types(Expression& e) {
     return call_types(e);
 }
 
-/// a = b or a = {1, 2, 3}.
+/// a = b or a = {1, 2, 3}. Whole arrays have no choices: their type is that of the left side, and no
+/// conversion makes another.
 Choices Analyser::array_assignment_types(Expression& e) {
     const Expression &left = *e.children[0], &right = *e.children[1];
     if (right.kind == Expression::Kind::List) {
@@ -343,7 +351,8 @@ Choices Analyser::assignment_types(Expression& e) {
     return Choices::unknown();
 }
 
-/// Whether a variable may be written to, directly or as an output argument.
+/// Whether a variable may be written to, directly or as an output argument. What RISpec forbids and shaders
+/// do all the same is let pass with a warning: the shader works on a copy, which nobody else sees.
 void Analyser::check_written(const Expression& place) {
     const Expression& e = place.kind == Expression::Kind::Element ? *place.children[0] : place;
     Variable* variable = e.variable;

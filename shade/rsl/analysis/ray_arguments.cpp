@@ -7,10 +7,15 @@
 namespace trapeze::rsl {
 namespace {
 
+/// What can be said of an argument before the shader runs: its type, and the text itself where it is a
+/// literal.
 RayArgumentValue value_of(const Expression& e) {
     using Is = RayArgumentValue::Is;
     if (e.type.is_array()) return {Is::Other};
-    if (e.type.base == Base::Float) return {Is::Number};
+    if (e.type.base == Base::Float) {
+        if (e.kind == Expression::Kind::Number) return {Is::Number, nullptr, e.number};
+        return {Is::Number};
+    }
     if (e.type.is_triple()) return {Is::Triple};
     if (e.type.base != Base::String) return {Is::Other};
     return {Is::Text, e.kind == Expression::Kind::Text ? &e.text : nullptr};
@@ -26,13 +31,16 @@ bool sends_rays_now(const Expression& call) {
 
 }  // namespace
 
+/// Pairs of name and value stand behind the parameters; a last name without a value has been refused by then
+/// (count_fits()).
 void Analyser::check_ray_arguments(const Expression& call, const Signature& signature) {
     if (!signature.builtin || !signature.pairs || call.children.empty() || !sends_rays_now(call)) return;
     for (size_t i = signature.parameters.size(); i + 1 < call.children.size(); i += 2)
         check_ray_argument(call.text, call.at, *call.children[i], *call.children[i + 1]);
 }
 
-/// `at`: of the call, by which a run knows the warning again.
+/// `at`: of the call, by which a run knows the warning again. Names that are computed are known in the run
+/// alone, which gives the same warning then, unless it was given here.
 void Analyser::check_ray_argument(std::string_view call, SourceLocation at, const Expression& name,
                                   const Expression& value) {
     if (name.kind != Expression::Kind::Text) return;

@@ -31,6 +31,7 @@ Base base_of(char letter) {
 }  // namespace
 
 /// Reads the row's letters from left to right; "[" changes the parameter before it. See Builtin for them.
+/// Capital letters are output parameters.
 Signature signature_of(const Builtin& builtin) {
     Signature signature;
     signature.name = builtin.name;
@@ -55,6 +56,8 @@ Signature signature_of(const Builtin& builtin) {
     return signature;
 }
 
+/// Of a function of the source: no optional arguments, as many as it has parameters. Views point into the
+/// function, which outlives the signature.
 Signature signature_of(const Function& function) {
     Signature signature;
     signature.name = function.name;
@@ -65,7 +68,8 @@ Signature signature_of(const Function& function) {
     return signature;
 }
 
-/// A signature as messages show it: with "..." where more arguments may follow.
+/// A signature as messages show it: with "..." where more arguments may follow. Close to RISpec's own way to
+/// write functions, which readers of messages know.
 std::string print(const Signature& signature) {
     std::string text = print(signature.result) + " " + std::string(signature.name) + "(";
     const char* separator = "";

@@ -39,7 +39,7 @@ Suggestion::Suggestion(std::string_view written)
     : written_(written), least_(written.size() < 3 ? 2 : std::min<size_t>(2 * (written.size() / 3) + 1, 7)) {}
 
 /// Distances are only worked out for names of about the same length, and for so many: scenes are full of
-/// names.
+/// names. Of names equally near the first counts.
 void Suggestion::consider(std::string_view candidate) {
     if (candidate.size() > kLongest || written_.size() > kLongest || candidate.empty()) return;
     const size_t longer = std::max(candidate.size(), written_.size()),

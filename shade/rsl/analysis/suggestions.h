@@ -6,10 +6,12 @@
 
 namespace trapeze::rsl {
 
-/// Takes candidates one by one and keeps the nearest that is near enough.
+/// Takes candidates one by one and keeps the nearest that is near enough. It only ever changes the text of a
+/// message; what the source means is never guessed.
 class Suggestion {
   public:
     explicit Suggestion(std::string_view written);
+    /// Candidates are views: they must live until text() is called.
     void consider(std::string_view candidate);
     /// " (did you mean \"Kd\"?)", or nothing.
     std::string text() const;

@@ -23,6 +23,8 @@ struct Statement;
 using ExpressionPtr = std::unique_ptr<Expression>;
 using StatementPtr = std::unique_ptr<Statement>;
 
+/// Operators of Expression::op. The order is relied on: comparisons by size stand together (combined() of
+/// code generation), and text_of() has its marks in it.
 enum class Operator : uint8_t {
     None,
     Add,

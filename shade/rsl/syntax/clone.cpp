@@ -22,6 +22,7 @@ ExpressionPtr clone(const ExpressionPtr& e) {
 
 namespace {
 
+/// `outlives` and `copied` are the analysis' to set, and start anew.
 std::unique_ptr<Variable> clone(const Variable& v) {
     auto copy = std::make_unique<Variable>();
     copy->name = v.name;
@@ -35,6 +36,8 @@ std::unique_ptr<Variable> clone(const Variable& v) {
     return copy;
 }
 
+/// `defines` still names the nested function of the original, which is copied itself when its statement is
+/// analysed.
 StatementPtr clone(const Statement& s) {
     auto copy = std::make_unique<Statement>();
     copy->kind = s.kind;
@@ -50,6 +53,8 @@ StatementPtr clone(const Statement& s) {
 
 }  // namespace
 
+/// Functions are copied before they are analysed: each shader has its own, since the analysis writes types
+/// and conversions into the tree.
 std::unique_ptr<Function> clone(const Function& function) {
     auto copy = std::make_unique<Function>();
     copy->name = function.name;

@@ -9,10 +9,12 @@ namespace {
 /// Parentheses and operators within each other: the evaluation recurses.
 constexpr int kDeepest = 200;  // far more than people write, little of a thread's stack
 
-/// Thrown after an error is reported; evaluate_condition() catches it.
+/// Thrown after an error is reported; evaluate_condition() catches it. An exception, because an error may be
+/// met deep in the recursion and ends all of it.
 struct BadCondition {};
 
-/// A whole number as in C: decimal, octal, hexadecimal, and with U or L behind it.
+/// A whole number as in C: decimal, octal, hexadecimal, and with U or L behind it. Read as 64 bits without a
+/// sign, and taken as those with one, as a preprocessor's widest type would be.
 std::optional<int64_t> integer_of(std::string_view text) {
     while (!text.empty() && std::string_view("uUlL").find(text.back()) != std::string_view::npos)
         text.remove_suffix(1);
@@ -27,7 +29,8 @@ std::optional<int64_t> integer_of(std::string_view text) {
     return static_cast<int64_t>(value);
 }
 
-/// How tightly a binary operator binds, as in C; 0 for a token that is none.
+/// How tightly a binary operator binds, as in C; 0 for a token that is none. Preprocessor conditions have C's
+/// operators, of which the language itself has fewer.
 int precedence_of(const Token& token) {
     if (token.kind != Token::Kind::Mark) return 0;
     static constexpr struct {
@@ -134,6 +137,7 @@ class Condition {
         return op == "/" ? left / right : left % right;
     }
 
+    /// Counts the depth, as conditional() does: signs and parentheses are where a condition nests.
     int64_t unary() {
         if (++depth_ > kDeepest) fail("this condition nests too deeply");
         const int64_t value = unary_within();
@@ -176,6 +180,7 @@ class Condition {
 
 }  // namespace
 
+/// A condition that cannot be read counts as false, so that what it guards is left out.
 bool evaluate_condition(const std::vector<Token>& tokens, SourceLocation at, Reporter& reporter) {
     try {
         return Condition(tokens, at, reporter).whole() != 0;

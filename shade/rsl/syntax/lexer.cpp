@@ -3,6 +3,7 @@
 namespace trapeze::rsl {
 namespace {
 
+/// Of ASCII, whatever the locale says.
 bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
@@ -37,7 +38,8 @@ void Lexer::advance() {
         ++next_joint_, ++line_, ++physical_line_, column_ = 1;
 }
 
-/// Skips a comment of either form. True when there was one.
+/// Skips a comment of either form. True when there was one. A comment that is never closed takes the rest of
+/// the file with it.
 bool Lexer::skip_comment() {
     if (peek() != '/') return false;
     if (peek(1) == '/') {
@@ -105,11 +107,14 @@ Token Lexer::next() {
     return token;
 }
 
+/// No length is too long here; read_values() cuts and reports.
 void Lexer::scan_name() {
     while (is_name_part(peek())) advance();
 }
 
 /// Digits, point, exponent, and whatever letters follow, which read_values() judges ("2.5", "0x1F", "3rd").
+/// Letters stay with the number as in C's preprocessing numbers: "3rd" is one wrong token and not two that
+/// might mean something.
 void Lexer::scan_number() {
     while (is_digit(peek())) advance();
     if (peek() == '.') advance();
@@ -123,7 +128,8 @@ void Lexer::scan_number() {
     while (is_name_part(peek())) advance();
 }
 
-/// True when the string is closed on its line.
+/// True when the string is closed on its line. A string that the line ends is an error at its beginning;
+/// strings over several lines are joined before, by a backslash at the line's end.
 bool Lexer::scan_string() {
     advance();
     while (position_ < text_.size() && peek() != '\n') {
@@ -135,7 +141,8 @@ bool Lexer::scan_string() {
     return false;
 }
 
-/// The longest operator that begins here, or one byte.
+/// The longest operator that begins here, or one byte. The list has longer marks first. A byte that is no
+/// mark is a token by itself, which read_values() reports.
 void Lexer::scan_mark() {
     const std::string_view rest = text_.substr(position_, 3);
     for (const std::string_view mark : kMarks)

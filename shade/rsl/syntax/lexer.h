@@ -7,7 +7,8 @@
 namespace trapeze::rsl {
 
 /// Reads a text once. Tokens point into it, so it is not copied; bytes that mean nothing become tokens, too,
-/// and it is read_values() that complains, since a condition may leave them out.
+/// and it is read_values() that complains, since a condition may leave them out. Lexing is done before macros
+/// are expanded: what a number or a string stands for is read after that (token_values.h).
 class Lexer {
   public:
     /// `source`: as registered with Diagnostics. `text` must outlive the tokens.
@@ -23,9 +24,11 @@ class Lexer {
     uint32_t physical_line() const { return physical_line_; }
 
   private:
+    /// A zero byte behind the end, which is part of no name, number or mark: so no look-ahead needs a bound.
     char peek(size_t ahead = 0) const {
         return position_ + ahead < text_.size() ? text_[position_ + ahead] : '\0';
     }
+    /// The only one that moves position_: it counts lines and columns on the way.
     void advance();
     void skip_blanks(Token& token);
     bool skip_comment();

@@ -24,11 +24,14 @@ size_t parameter_index(const Macro& macro, const Token& token) {
 
 }  // namespace
 
+/// The pointer keeps a macro alive while its text is read, even if #undef takes it out of the table
+/// meanwhile.
 std::shared_ptr<Macro> Macros::find(std::string_view name) const {
     const auto entry = table_.find(name);
     return entry == table_.end() ? nullptr : entry->second;
 }
 
+/// A new object each time: expansions of the old definition that are under way go on with it.
 bool Macros::define(std::string_view name, Macro macro) {
     std::shared_ptr<Macro>& entry = table_[name];
     const bool differs = entry && !same_body(*entry, macro);
@@ -36,6 +39,7 @@ bool Macros::define(std::string_view name, Macro macro) {
     return differs;
 }
 
+/// Macros are enabled again, for the table outlives this expander where an error has ended it early.
 Expander::~Expander() {
     while (!contexts_.empty()) leave_context();
 }
@@ -52,7 +56,9 @@ void Expander::exceed(SourceLocation at, const char* what) {
     budget_.exceeded = true;
 }
 
-/// The next token before expansion: of the innermost macro's text, or of the file.
+/// The next token before expansion: of the innermost macro's text, or of the file. A macro's text is left as
+/// soon as it is used up, which makes its name one that may be expanded again: C's rule that a macro does not
+/// expand within itself.
 Token Expander::pull() {
     while (!contexts_.empty()) {
         Context& top = contexts_.back();
@@ -123,7 +129,8 @@ void Expander::expand(const Token& name, const std::shared_ptr<Macro>& macro) {
     contexts_.push_back({std::move(tokens), 0, macro});
 }
 
-/// Reads "( a, b, ... )" after a macro's name.
+/// Reads "( a, b, ... )" after a macro's name. Commas within parentheses separate nothing. Lines may end
+/// among the arguments; directives there are obeyed by the reader.
 bool Expander::collect_arguments(const Token& name, const Macro& macro, Arguments& arguments) {
     const std::string called = "macro \"" + std::string(name.text) + "\"";
     const size_t wanted = macro.parameters.size();
@@ -157,7 +164,9 @@ bool Expander::collect_arguments(const Token& name, const Macro& macro, Argument
     return false;
 }
 
-/// The macro's text with its arguments in place. Tokens of the text stand where the macro is used.
+/// The macro's text with its arguments in place. Tokens of the text stand where the macro is used. As C has
+/// it: an argument beside # or ## is taken as it was written, any other is expanded first; what results is
+/// read again for further macros.
 std::vector<Token> Expander::substitute(const Token& name, const Macro& macro, const Arguments& arguments) {
     std::vector<Token> out;
     // Arguments after expansion: each is expanded at most once, and not at all where # or ## takes it.
@@ -209,7 +218,8 @@ std::vector<Token> Expander::substitute(const Token& name, const Macro& macro, c
     return out;
 }
 
-/// An argument is expanded by itself before it is put in, as if it were the rest of the file.
+/// An argument is expanded by itself before it is put in, as if it were the rest of the file. It has a budget
+/// of depth of its own, as each level is one of this program's stack.
 std::vector<Token> Expander::expanded(const std::vector<Token>& argument) {
     if (++budget_.argument_depth > ExpansionBudget::kDeepestArguments && !argument.empty())
         exceed(argument.front().at, "macros in arguments of macros nest too deeply");
@@ -226,7 +236,8 @@ std::string_view Expander::keep(std::string text) {
     return made_.back();
 }
 
-/// # parameter.
+/// # parameter. Blanks between tokens become one; quotation marks and backslashes within strings are escaped,
+/// so that the result reads back as the same text.
 Token Expander::stringized(const std::vector<Token>& argument, const Token& name) {
     std::string text = "\"";
     for (const Token& token : argument) {
@@ -247,7 +258,8 @@ Token Expander::stringized(const std::vector<Token>& argument, const Token& name
     return token;
 }
 
-/// left ## right.
+/// left ## right. The text is scanned by a lexer that reports nothing, since what a paste must not make is
+/// said here. A pasted name may be a macro's again. After an error the left one stands alone.
 Token Expander::pasted(const Token& left, const Token& right, const Token& name) {
     Token token = left;
     const std::string text = std::string(left.text) + std::string(right.text);
@@ -266,6 +278,8 @@ Token Expander::pasted(const Token& left, const Token& right, const Token& name)
     return token;
 }
 
+/// By an expander of its own, whose source is the list: a macro's name at its end finds no parenthesis behind
+/// the list.
 std::vector<Token> expand_all(const std::vector<Token>& tokens, Macros& macros, ExpansionBudget& budget,
                               std::deque<std::string>& made, Reporter& reporter) {
     size_t position = 0;

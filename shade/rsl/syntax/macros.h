@@ -23,7 +23,8 @@ struct Macro {
     int disabled = 0;  ///< how many expansions of it are being read
 };
 
-/// The table of macros. Names are views of texts that the TokenStream keeps, tokens of bodies too.
+/// The table of macros. Names are views of texts that the TokenStream keeps, tokens of bodies too. One table
+/// for a compilation: definitions of an included file stay in force behind its #include.
 class Macros {
   public:
     /// Null for what is no macro. Shared, since a directive among a macro's arguments may remove it.
@@ -51,7 +52,8 @@ struct ExpansionBudget {
     bool exceeded = false;
 };
 
-/// Replaces macros in the tokens that a function gives, until End.
+/// Replaces macros in the tokens that a function gives, until End. Tokens come from three places, innermost
+/// first: texts of macros that are being read, tokens put back after a look ahead, and `read`.
 class Expander {
   public:
     using Read = std::function<Token()>;
@@ -77,15 +79,23 @@ class Expander {
 
     /// The next token before expansion.
     Token pull();
+    /// Leaves macros' texts that are read to their end, so that a call may begin in a macro's text and end
+    /// behind it.
     bool next_is_open_parenthesis();
     void leave_context();
     void expand(const Token& name, const std::shared_ptr<Macro>& macro);
+    /// False after an error, which is reported; then the macro's name and what was read of its arguments are
+    /// gone.
     bool collect_arguments(const Token& name, const Macro& macro, Arguments& arguments);
+    /// The text of one use, arguments in place; # and ## take arguments as they were written, all else as
+    /// expanded.
     std::vector<Token> substitute(const Token& name, const Macro& macro, const Arguments& arguments);
     std::vector<Token> expanded(const std::vector<Token>& argument);
     Token stringized(const std::vector<Token>& argument, const Token& name);
     Token pasted(const Token& left, const Token& right, const Token& name);
+    /// For words that stand in no file: those made by #, ## and __LINE__.
     std::string_view keep(std::string text);
+    /// Reports what there is too much of, and ends all expansion.
     void exceed(SourceLocation at, const char* what);
 
     Read read_;

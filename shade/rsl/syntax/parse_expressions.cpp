@@ -5,6 +5,7 @@
 namespace trapeze::rsl {
 namespace {
 
+/// A row of the operators' table; both tables are small enough to be searched for each token.
 struct BinaryOperator {
     std::string_view mark;
     Operator op;
@@ -45,7 +46,8 @@ ExpressionPtr make(Expression::Kind kind, const Token& token) {
 
 }  // namespace
 
-/// Knows its height; one that is too high is an error.
+/// Knows its height; one that is too high is an error. The bound keeps every later walk over the tree, which
+/// recurses, within any thread's stack.
 ExpressionPtr Parser::finished(ExpressionPtr e) {
     int height = 0;
     for (const ExpressionPtr& child : e->children) height = std::max<int>(height, child->height);
@@ -55,7 +57,8 @@ ExpressionPtr Parser::finished(ExpressionPtr e) {
     throw Lost();
 }
 
-/// conditional, or place = value and its like, which are right-associative.
+/// conditional, or place = value and its like, which are right-associative. Assignments have values in RSL as
+/// in C. Only their left side's form is checked here; whether it may be written is the analysis' to say.
 ExpressionPtr Parser::expression() {
     const Nesting nesting(*this);
     ExpressionPtr left = conditional();
@@ -71,7 +74,8 @@ ExpressionPtr Parser::expression() {
     return finished(std::move(assignment));
 }
 
-/// condition ? a : b, right-associative.
+/// condition ? a : b, right-associative. Each "?" nests once more in this program's stack, and is counted for
+/// that.
 ExpressionPtr Parser::conditional() {
     ExpressionPtr condition = binary(1);
     if (!at("?")) return condition;
@@ -84,7 +88,8 @@ ExpressionPtr Parser::conditional() {
     return finished(std::move(choice));
 }
 
-/// Operators that bind at least as tightly as `lowest`, by precedence climbing: all are left-associative.
+/// Operators that bind at least as tightly as `lowest`, by precedence climbing: all are left-associative. A
+/// loop for what stands side by side, and a call for what binds more tightly: long sums do not nest.
 ExpressionPtr Parser::binary(int lowest) {
     ExpressionPtr left = unary();
     while (const BinaryOperator* row = find(kBinary, now())) {
@@ -99,6 +104,8 @@ ExpressionPtr Parser::binary(int lowest) {
 }
 
 /// - and !, and + which says nothing. A type's name begins a cast, which binds as tightly.
+/// Casts are known by their words alone, as types are reserved in RSL: no table of names is needed while
+/// parsing.
 ExpressionPtr Parser::unary() {
     if (at("-") || at("!")) {
         const Nesting nesting(*this);
@@ -138,7 +145,8 @@ ExpressionPtr Parser::cast() {
     return finished(std::move(e));
 }
 
-/// Elements: a[i], m[i][j].
+/// Elements: a[i], m[i][j]. Elements and components alike; which of the two an index means depends on the
+/// type, which the parser does not know.
 ExpressionPtr Parser::postfix() {
     ExpressionPtr e = primary();
     while (at("[")) {
@@ -153,7 +161,8 @@ ExpressionPtr Parser::postfix() {
     return e;
 }
 
-/// A number, string, name, call, or something in parentheses.
+/// A number, string, name, call, or something in parentheses. A name before a parenthesis is a call, whatever
+/// it names: functions and variables have names apart.
 ExpressionPtr Parser::primary() {
     const Token& token = now();
     if (token.kind == Token::Kind::Number) {
@@ -180,7 +189,8 @@ ExpressionPtr Parser::primary() {
     return finished(std::move(e));
 }
 
-/// (a), the triple (a, b, c), or a matrix of 16.
+/// (a), the triple (a, b, c), or a matrix of 16. Read like the arguments of a call, and told apart by how
+/// many they are.
 ExpressionPtr Parser::parentheses() {
     const Token& open = now();
     std::vector<ExpressionPtr> values = arguments();
@@ -194,7 +204,8 @@ ExpressionPtr Parser::parentheses() {
     return finished(std::move(e));
 }
 
-/// "(" ... ")", of a call as of a parenthesis: a comma behind the last value is let pass.
+/// "(" ... ")", of a call as of a parenthesis: a comma behind the last value is let pass. Macros that join
+/// arguments leave such commas.
 std::vector<ExpressionPtr> Parser::arguments() {
     std::vector<ExpressionPtr> values;
     expect("(", "before arguments");

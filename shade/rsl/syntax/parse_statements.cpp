@@ -3,6 +3,7 @@
 namespace trapeze::rsl {
 namespace {
 
+/// Begins a statement where a token stands.
 StatementPtr make(Statement::Kind kind, const Token& token) {
     auto statement = std::make_unique<Statement>();
     statement->kind = kind;
@@ -12,7 +13,8 @@ StatementPtr make(Statement::Kind kind, const Token& token) {
 
 }  // namespace
 
-/// { ... }: an error within ends one statement only.
+/// { ... }: an error within ends one statement only. The message of an error has been given where it was
+/// thrown.
 StatementPtr Parser::block() {
     StatementPtr block = make(Statement::Kind::Block, now());
     const Nesting nesting(*this);
@@ -35,7 +37,8 @@ StatementPtr Parser::statement() {
 }
 
 /// The first word decides. Declarations and functions both begin with a type, as casts do, so what follows
-/// the type is looked at; whatever else comes is an expression.
+/// the type is looked at; whatever else comes is an expression. Words of control are reserved, and need no
+/// look at what follows.
 StatementPtr Parser::statement_within() {
     if (at("{")) return block();
     if (at(";")) return make(Statement::Kind::Empty, take());
@@ -58,7 +61,8 @@ StatementPtr Parser::statement_within() {
     return evaluation();
 }
 
-/// An expression, or several with commas between them.
+/// An expression, or several with commas between them. Several become an open block, which has no scope of
+/// its own, since each is a statement by itself.
 StatementPtr Parser::evaluation() {
     const Token& first = now();
     StatementPtr statement, several;
@@ -75,7 +79,8 @@ StatementPtr Parser::evaluation() {
     return several;
 }
 
-/// "float f(float x) {": not the cast of a call.
+/// "float f(float x) {": not the cast of a call. A nested function and a cast of a call begin alike, up to
+/// what stands behind the closing parenthesis.
 bool Parser::at_function() const {
     size_t name = next_;
     while (tokens_[name].is("uniform") || tokens_[name].is("varying")) ++name;
@@ -113,7 +118,8 @@ StatementPtr Parser::nested_function() {
     return statement;
 }
 
-/// "float a = 1, b, color c;": a type may change between commas.
+/// "float a = 1, b, color c;": a type may change between commas. The words before a type hold for all names
+/// up to the next type.
 StatementPtr Parser::declaration() {
     StatementPtr statement = make(Statement::Kind::Declare, now());
     Specifier specified = specifier();
@@ -125,6 +131,7 @@ StatementPtr Parser::declaration() {
     return statement;
 }
 
+/// The head of an if or while; `where` ends the message about a missing parenthesis.
 ExpressionPtr Parser::parenthesised_condition(std::string_view where) {
     expect("(", where);
     ExpressionPtr condition = expression();
@@ -132,6 +139,7 @@ ExpressionPtr Parser::parenthesised_condition(std::string_view where) {
     return condition;
 }
 
+/// An else belongs to the nearest if, since the inner one has taken it by the time the outer looks.
 StatementPtr Parser::if_statement() {
     StatementPtr statement = make(Statement::Kind::If, take());
     statement->expressions.push_back(parenthesised_condition("after \"if\""));
@@ -148,6 +156,8 @@ StatementPtr Parser::while_statement() {
 }
 
 /// A declaration in the head, or several expressions before the first ;, go into a block around the loop.
+/// Expressions of the loop: what is done before, the condition, and what is done after each turn, of which
+/// there may be several; null where one is left out.
 StatementPtr Parser::for_statement() {
     StatementPtr loop = make(Statement::Kind::For, take());
     StatementPtr around;
@@ -181,6 +191,7 @@ StatementPtr Parser::for_statement() {
 }
 
 /// illuminance, illuminate, solar and gather: arguments in parentheses, a statement, and for gather an else.
+/// How many arguments there may be depends on their types, which the analysis knows (Analyser::light_loop).
 StatementPtr Parser::light_statement(Statement::Kind kind) {
     const Token& word = take();
     StatementPtr statement = make(kind, word);
@@ -191,7 +202,8 @@ StatementPtr Parser::light_statement(Statement::Kind kind) {
     return statement;
 }
 
-/// break n and continue n: out of the n-th loop, from the inside.
+/// break n and continue n: out of the n-th loop, from the inside. Without a number the innermost. Whether
+/// there are so many is the analysis' to say.
 StatementPtr Parser::loop_control(Statement::Kind kind) {
     const Token& word = take();
     StatementPtr statement = make(kind, word);
@@ -206,6 +218,7 @@ StatementPtr Parser::loop_control(Statement::Kind kind) {
     return statement;
 }
 
+/// Whether a value is returned is kept for functions whose type is left out.
 StatementPtr Parser::return_statement() {
     StatementPtr statement = make(Statement::Kind::Return, take());
     if (!at(";")) statement->expressions.push_back(expression());

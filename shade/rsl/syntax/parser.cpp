@@ -30,7 +30,8 @@ std::unique_ptr<TranslationUnit> parse_tokens(const TokenStream& stream, Reporte
 
 Parser::Parser(const std::vector<Token>& tokens, Reporter& reporter) : tokens_(tokens), reporter_(reporter) {}
 
-/// Definitions until the end. An error ends the definition that it is in, and reading goes on behind it.
+/// Definitions until the end. An error ends the definition that it is in, and reading goes on behind it. Two
+/// exceptions stay within the parser: Lost ends what is being read, Hopeless the whole source.
 std::unique_ptr<TranslationUnit> Parser::unit() {
     try {
         while (!at_end() && !reporter_.full()) {
@@ -57,6 +58,7 @@ const Token& Parser::take() {
     return token;
 }
 
+/// For words that may stand in one place; none is taken.
 bool Parser::at_any(std::initializer_list<std::string_view> texts) const {
     return std::any_of(texts.begin(), texts.end(), [&](std::string_view text) { return at(text); });
 }
@@ -68,6 +70,7 @@ bool Parser::accept(std::string_view text) {
     return true;
 }
 
+/// Reports, and leaves the rule that was being read by an exception.
 void Parser::fail(const Token& token, std::string text) {
     reporter_.error(token.at, std::move(text));
     throw Lost();
@@ -98,7 +101,8 @@ std::string Parser::new_name(std::string_view what) {
     return std::string(take().text);
 }
 
-/// The index behind the parenthesis that closes the one at `open`; that of the end when none does.
+/// The index behind the parenthesis that closes the one at `open`; that of the end when none does. Braces end
+/// the search: where they come first, a parenthesis is missing.
 size_t Parser::behind_parentheses(size_t open) const {
     int depth = 0;
     for (size_t i = open; i < tokens_.size(); ++i) {
@@ -112,7 +116,8 @@ size_t Parser::behind_parentheses(size_t open) const {
     return tokens_.size() - 1;
 }
 
-/// Behind the next ; or block, before the next } of outside.
+/// Behind the next ; or block, before the next } of outside. The error has been said: what is skipped must
+/// end where the next statement is likely to begin, so that one mistake makes one message.
 void Parser::skip_statement() {
     for (int depth = 0; !at_end(); take()) {
         if (depth == 0 && accept(";")) return;
@@ -126,7 +131,8 @@ void Parser::skip_statement() {
     }
 }
 
-/// Behind the definition that is being read.
+/// Behind the definition that is being read. Braces are counted from where the error was, which may be within
+/// some: a shader at a line's beginning ends the search in any case.
 void Parser::skip_definition() {
     for (int depth = 0; !at_end(); take()) {
         // Where a shader begins, whatever was wrong before has an end.
@@ -141,7 +147,8 @@ void Parser::skip_definition() {
     }
 }
 
-/// What RenderMan's second shading language adds is said to be missing once.
+/// What RenderMan's second shading language adds is said to be missing once. Words that RSL 2 reserves are
+/// names in RSL 1: each is taken for RSL 2 only where what follows could be nothing else.
 void Parser::refuse_rsl2() {
     const bool class_ =
         at("class") && ahead(1).kind == Token::Kind::Name && (ahead(2).is("(") || ahead(2).is("{"));
@@ -160,7 +167,8 @@ void Parser::refuse_rsl2() {
 
 // ---- Definitions
 
-/// A shader or a function, which are told apart by what stands before the first parenthesis.
+/// A shader or a function, which are told apart by what stands before the first parenthesis. A function's
+/// type may be left out, and words may stand before it, so that no single word tells the two apart.
 void Parser::definition() {
     if (shader_kind_named(now().text) && ahead(1).kind == Token::Kind::Name && ahead(2).is("("))
         return shader();
@@ -179,6 +187,7 @@ void Parser::definition() {
 }
 
 /// kind name ( parameters ) { ... }
+/// Functions that stand within belong to this shader by its name (Function::inside).
 void Parser::shader() {
     auto shader = std::make_unique<Shader>();
     shader->kind = *shader_kind_named(take().text);
@@ -251,7 +260,8 @@ bool Parser::at_specifier() const {
            (at_any({"output", "extern", "uniform", "varying"}) || base_named(now().text) != Base::Void);
 }
 
-/// output, extern, uniform and varying in any order, and then the type.
+/// output, extern, uniform and varying in any order, and then the type. RISpec has an order for these words,
+/// which shaders do not keep.
 Parser::Specifier Parser::specifier() {
     Specifier specifier;
     while (true) {
@@ -278,7 +288,8 @@ Parser::Specifier Parser::specifier() {
     return specifier;
 }
 
-/// name [length] = value.
+/// name [length] = value. What may not stand where it stands (output of a local, extern with a value) is said
+/// by the analysis.
 std::unique_ptr<Variable> Parser::declarator(const Specifier& specifier, Variable::Kind kind) {
     auto variable = std::make_unique<Variable>();
     variable->at = now().at;
@@ -293,7 +304,8 @@ std::unique_ptr<Variable> Parser::declarator(const Specifier& specifier, Variabl
     return variable;
 }
 
-/// Behind "[": a constant expression, or nothing.
+/// Behind "[": a constant expression, or nothing. Lengths are known before any value is: registers are laid
+/// out by them.
 int Parser::array_length() {
     if (accept("]")) return Type::kUnsized;
     const Token& first = now();
@@ -307,7 +319,8 @@ int Parser::array_length() {
     return static_cast<int>(value);
 }
 
-/// The value of an expression of numbers and + - * / alone; false for any other.
+/// The value of an expression of numbers and + - * / alone; false for any other. Lengths of arrays mostly
+/// come out of macros, as "2*N+1": names are numbers by then.
 bool Parser::constant_value(const Expression& e, double& value) {
     double left = 0, right = 0;
     if (e.kind == Expression::Kind::Number) {
@@ -340,7 +353,7 @@ bool Parser::constant_value(const Expression& e, double& value) {
     }
 }
 
-/// An expression, or an array's values in braces.
+/// An expression, or an array's values in braces. Braces do not nest, as arrays in RSL have one dimension.
 ExpressionPtr Parser::initial_value() {
     if (!at("{")) return expression();
     auto list = std::make_unique<Expression>();

@@ -16,7 +16,10 @@ namespace trapeze::rsl {
 /// reporter.failed() is false.
 std::unique_ptr<TranslationUnit> parse_tokens(const TokenStream& stream, Reporter& reporter);
 
-/// The parser's state. parser.cpp has definitions, parse_statements.cpp and parse_expressions.cpp the rest.
+/// The parser's state. parser.cpp has definitions, parse_statements.cpp and parse_expressions.cpp the rest. A
+/// token is looked at as often as it takes and taken once; there is no going back but in at_...() and
+/// definition(), which look ahead by index. Functions named for a rule read that rule from now() on, and
+/// leave the token behind it as the next.
 class Parser {
   public:
     Parser(const std::vector<Token>& tokens, Reporter& reporter);
@@ -47,13 +50,17 @@ class Parser {
     /// accept() takes a token if it is the one named, expect() reports when it is not.
     bool accept(std::string_view text);
     void expect(std::string_view text, std::string_view where);
+    /// An error for a reserved word and for what is no name.
     std::string new_name(std::string_view what);
+    /// For looking ahead over a parameter list, in time linear in its length.
     size_t behind_parentheses(size_t open) const;
     [[noreturn]] void fail(const Token& token, std::string text);
     [[noreturn]] void fail_expecting(std::string_view what);
     /// Where reading goes on after an error: both leave the End in place.
     void skip_statement();
+    /// Goes on where the next shader or function is likely to begin, after an error.
     void skip_definition();
+    /// Called wherever a word of RSL 2 could begin something; does nothing before any other word.
     void refuse_rsl2();
 
     // Definitions: parser.cpp.
@@ -67,15 +74,19 @@ class Parser {
     std::unique_ptr<Variable> declarator(const Specifier& specifier, Variable::Kind kind);
     int array_length();
     ExpressionPtr initial_value();
+    /// Lengths of arrays are needed while parsing, before there is an analysis to fold constants.
     static bool constant_value(const Expression& e, double& value);
 
-    // Statements.
+    // Statements: parse_statements.cpp. statement() is the one entry, and counts the nesting.
     StatementPtr statement();
+    /// The kinds of statements by their first word; statement() counts the depth.
     StatementPtr statement_within();
     StatementPtr block();
     StatementPtr evaluation();
     StatementPtr declaration();
+    /// Goes into the unit's functions; an empty statement stays in its place.
     StatementPtr nested_function();
+    /// Looks ahead and takes nothing, like all that begin with at.
     bool at_declaration() const;
     bool at_function() const;
     StatementPtr if_statement();

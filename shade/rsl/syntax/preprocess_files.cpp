@@ -15,11 +15,13 @@ constexpr size_t kMostRenumberings = 100000;
 /// Folders that are looked into for a header that is nowhere else.
 constexpr size_t kMostFoldersBeside = 1000;
 
+/// As messages quote it, cut to a bearable length.
 std::string shown(std::string_view text) {
     return "\"" + std::string(text.substr(0, 80)) + (text.size() > 80 ? "...\"" : "\"");
 }
 
-/// A string's value, for file names: \" and \\ alone are escapes.
+/// A string's value, for file names: \" and \\ alone are escapes. Names of files of other systems have
+/// backslashes in them, which must not begin escapes of other letters.
 std::string file_name_of(std::string_view text) {
     std::string name;
     for (size_t i = 1; i + 1 < text.size(); ++i) {
@@ -36,7 +38,8 @@ FileReader::FileReader(const CompileOptions& options, Macros& macros, ExpansionB
     : options_(options), macros_(macros), budget_(budget), stream_(stream), reporter_(reporter) {}
 
 /// The text is kept in the stream, since tokens point into it; Diagnostics gets it too, to show the lines
-/// that messages are about.
+/// that messages are about. Files wait on a stack: the one that is entered is read to its end before the one
+/// that includes it goes on. `from` is the place of the #include, which messages about the file tell.
 void FileReader::enter(const std::string& name, const std::string& path, std::string text,
                        SourceLocation from) {
     const SourceText& source = stream_.sources.emplace_back(joined_lines(std::move(text)));
@@ -55,7 +58,9 @@ bool FileReader::counts() const {
     return files_.back().conditionals.empty() || files_.back().conditionals.back().counts;
 }
 
-/// Obeys directives on the way, enters files that are included and leaves them at their ends.
+/// Obeys directives on the way, enters files that are included and leaves them at their ends. The end of a
+/// file that is included does not end a macro's arguments, nor anything else of the parser's: tokens of all
+/// files are one stream.
 Token FileReader::next() {
     while (!files_.empty()) {
         // After a bound was passed, or too many errors, the source ends here.
@@ -81,7 +86,8 @@ void FileReader::leave() {
     files_.pop_back();
 }
 
-/// The tokens of a directive, not expanded.
+/// The tokens of a directive, not expanded. Lines that a backslash joined are one; a comment that reaches
+/// over lines counts as a blank.
 FileReader::Line FileReader::rest_of_line() {
     Line line;
     for (Token token = files_.back().lexer.next();
@@ -91,11 +97,13 @@ FileReader::Line FileReader::rest_of_line() {
     return line;
 }
 
+/// By the table as it is now, and against the compilation's one budget.
 FileReader::Line FileReader::expanded(const Line& line) {
     return expand_all(line, macros_, budget_, stream_.made, reporter_);
 }
 
-/// A directive: all to the line's end behind a # that is the first of its line.
+/// A directive: all to the line's end behind a # that is the first of its line. Where lines do not count,
+/// conditions alone are obeyed. What is unknown is a warning: compilers have directives of their own.
 void FileReader::obey(const Token& hash) {
     Line line = rest_of_line();
     if (line.empty()) return;
@@ -124,6 +132,7 @@ void FileReader::obey(const Token& hash) {
 }
 
 /// True when the directive is one of conditions, all of which are read in lines that do not count as well.
+/// Conditions belong to their file: what it leaves open is closed at its end, with an error.
 bool FileReader::obey_conditional(std::string_view name, const Token& at, const Line& line) {
     std::vector<Conditional>& open = files_.back().conditionals;
     const bool starts = name == "if" || name == "ifdef" || name == "ifndef";
@@ -248,6 +257,7 @@ void FileReader::define(const Token& at, const Line& line) {
         reporter_.warning(line[0].at, "macro " + shown(line[0].text) + " is defined anew, differently");
 }
 
+/// No error for a name that is no macro, as in C.
 void FileReader::undefine(const Token& at, const Line& line) {
     if (line.empty() || line[0].kind != Token::Kind::Name)
         reporter_.error(at.at, "#undef wants a name");
@@ -255,7 +265,8 @@ void FileReader::undefine(const Token& at, const Line& line) {
         macros_.remove(line[0].text);
 }
 
-/// #error and #warning: the rest of the line as it was written.
+/// #error and #warning: the rest of the line as it was written. Clipped at about 500 bytes: the line may be
+/// as long as the file.
 void FileReader::say(const Token& at, const Line& line, bool error) {
     std::string text;
     for (const Token& token : line) {
@@ -317,7 +328,8 @@ void FileReader::include(const Token& at, const Line& line_as_written) {
                                (options_.include_folders.empty() ? "" : " in any of the folders to search"));
 }
 
-/// Reads a file in the place of its #include; false if it is not there.
+/// Reads a file in the place of its #include; false if it is not there. CompileOptions::read_file stands in
+/// for the disk where sources come from memory.
 bool FileReader::is_included(const std::string& path, const Token& at) {
     if (once_.contains(path)) return true;
     std::optional<std::string> text =
@@ -351,7 +363,9 @@ std::vector<std::string> FileReader::places_of(const std::string& name, bool quo
     return places;
 }
 
-/// In other folders of the collection: those in the file's own and those beside it, by name.
+/// In other folders of the collection: those in the file's own and those beside it, by name. Collections of
+/// shaders keep their headers in one folder of several, which other compilers are told of by an option.
+/// Sorted, so that the choice does not depend on the file system.
 std::vector<std::string> FileReader::places_beside(const std::string& name) const {
     namespace fs = std::filesystem;
     const fs::path folder = fs::path(files_.back().path).parent_path();
@@ -370,7 +384,8 @@ std::vector<std::string> FileReader::places_beside(const std::string& name) cons
     return places;
 }
 
-/// #line 10 "file", and # 10 "file" 1 as cpp writes it.
+/// #line 10 "file", and # 10 "file" 1 as cpp writes it. Each renumbering costs an entry in Diagnostics:
+/// beyond a bound they are passed over, and messages have the numbers before.
 void FileReader::line(const Token& at, const Line& line_as_written) {
     const Line line = expanded(line_as_written);
     uint32_t number = 0;

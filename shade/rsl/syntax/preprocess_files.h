@@ -9,7 +9,9 @@
 
 namespace trapeze::rsl {
 
-/// Tokens of a file and its includes before macros are expanded; directives are obeyed on the way.
+/// Tokens of a file and its includes before macros are expanded; directives are obeyed on the way. It is
+/// asked by an Expander, token by token; so a directive takes effect exactly between the tokens where it
+/// stands, even within a macro's arguments.
 class FileReader {
   public:
     /// Bounds that no collection of shaders comes near, and that end a file which includes itself.
@@ -46,12 +48,16 @@ class FileReader {
     /// What stands in a directive's line behind its word.
     using Line = std::vector<Token>;
 
+    /// Of the innermost condition: it knows whether those around it hold.
     bool counts() const;
+    /// Ends the innermost file; conditions that it leaves open are errors of its own.
     void leave();
+    /// The tokens up to the line's end, which is taken as well.
     Line rest_of_line();
     Line expanded(const Line& line);
 
     void obey(const Token& hash);
+    /// Conditionals are obeyed in lines that do not count too, or their #endif would be taken for another's.
     bool obey_conditional(std::string_view name, const Token& at, const Line& line);
     bool condition(const Token& at, const Line& line);
     bool name_is_defined(const Token& at, const Line& line);
@@ -60,6 +66,7 @@ class FileReader {
     void undefine(const Token& at, const Line& line);
     void include(const Token& at, const Line& line);
     bool is_included(const std::string& path, const Token& at);
+    /// Paths to try, in order; nothing is opened here.
     std::vector<std::string> places_of(const std::string& name, bool quoted) const;
     std::vector<std::string> places_beside(const std::string& name) const;
     void line(const Token& at, const Line& line);

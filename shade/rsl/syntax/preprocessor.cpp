@@ -8,7 +8,8 @@ namespace {
 // A bound on memory and time for files from strangers.
 constexpr size_t kMostTokens = size_t{1} << 20;  // that the parser gets
 
-/// __FILE__ and __LINE__, and TRAPEZE, by which shaders tell this compiler from others.
+/// __FILE__ and __LINE__, and TRAPEZE, by which shaders tell this compiler from others. The first two have
+/// kinds of their own, as their text depends on where they are used.
 void define_builtin(Macros& macros) {
     Macro file, line, trapeze;
     file.kind = Macro::Kind::File;
@@ -24,6 +25,8 @@ void define_builtin(Macros& macros) {
 
 }  // namespace
 
+/// Two stages in a pipe: FileReader hands on the tokens of lines that count, Expander replaces macros among
+/// them.
 TokenStream preprocess(const Source& source, const CompileOptions& options, Reporter& reporter) {
     TokenStream stream;
     Macros macros;

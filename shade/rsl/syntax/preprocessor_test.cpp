@@ -45,7 +45,7 @@ std::string expand(const std::string& text) {
     return out;
 }
 
-std::string said(const std::string& text) {
+std::string complaints(const std::string& text) {
     Files files;
     files.expand(text);
     return files.heard.all();
@@ -58,7 +58,7 @@ TEST(Lexer, WordsAndComments) {
     EXPECT_EQ(expand("ab\\\ncd \"x\\\r\ny\" // z \\\n still"), "abcd \"xy\"");
     EXPECT_EQ(expand("a\r\nb\rc"), "a b c");
     EXPECT_EQ(expand("\xef\xbb\xbfsurface"), "surface");
-    EXPECT_EQ(said("a /* b"), "error 1:3: this comment is never closed\n");
+    EXPECT_EQ(complaints("a /* b"), "error 1:3: this comment is never closed\n");
 }
 
 TEST(Lexer, EveryTokenKnowsItsPlace) {
@@ -114,19 +114,22 @@ TEST(Macros, HashesAndVariadic) {
 }
 
 TEST(Macros, MistakesAreSaid) {
-    EXPECT_EQ(said("#define F(x, y) x\nF(1)"), "error 2:1: macro \"F\" takes 2 arguments, 1 are given\n");
-    EXPECT_EQ(said("#define F(x) x\nF(1"),
+    EXPECT_EQ(complaints("#define F(x, y) x\nF(1)"),
+              "error 2:1: macro \"F\" takes 2 arguments, 1 are given\n");
+    EXPECT_EQ(complaints("#define F(x) x\nF(1"),
               "error 2:1: the arguments of macro \"F\" never end: a ) is missing\n");
-    EXPECT_EQ(said("#define A 1\n#define A 2"), "warning 2:9: macro \"A\" is defined anew, differently\n");
-    EXPECT_EQ(said("#define A 1\n#define A  1 /* same */"), "");
-    EXPECT_EQ(said("#define F(1) x"), "error 1:11: the parameters of macro \"F\" are names between ( , )\n");
-    EXPECT_EQ(said("#define C(a) a ## +\nC(b)"), "error 2:1: ## makes no word of \"b\" and \"+\"\n");
-    EXPECT_EQ(said("#define C(a) ## a"), "error 1:9: ## stands between two words, in macro \"C\"\n");
-    EXPECT_EQ(said("#define"), "error 1:2: #define wants a name\n");
-    EXPECT_EQ(said("#frobnicate"), "warning 1:1: unknown directive #frobnicate (ignored)\n");
-    EXPECT_EQ(said("#error it isn't so"), "error 1:2: it isn't so\n");
-    EXPECT_EQ(said("#warning \"so\""), "warning 1:2: so\n");
-    EXPECT_EQ(said("#define F(x) x\nF(\n#undef F\n1\n#define F(a, b, c) a b c\n)"), "");
+    EXPECT_EQ(complaints("#define A 1\n#define A 2"),
+              "warning 2:9: macro \"A\" is defined anew, differently\n");
+    EXPECT_EQ(complaints("#define A 1\n#define A  1 /* same */"), "");
+    EXPECT_EQ(complaints("#define F(1) x"),
+              "error 1:11: the parameters of macro \"F\" are names between ( , )\n");
+    EXPECT_EQ(complaints("#define C(a) a ## +\nC(b)"), "error 2:1: ## makes no word of \"b\" and \"+\"\n");
+    EXPECT_EQ(complaints("#define C(a) ## a"), "error 1:9: ## stands between two words, in macro \"C\"\n");
+    EXPECT_EQ(complaints("#define"), "error 1:2: #define wants a name\n");
+    EXPECT_EQ(complaints("#frobnicate"), "warning 1:1: unknown directive #frobnicate (ignored)\n");
+    EXPECT_EQ(complaints("#error it isn't so"), "error 1:2: it isn't so\n");
+    EXPECT_EQ(complaints("#warning \"so\""), "warning 1:2: so\n");
+    EXPECT_EQ(complaints("#define F(x) x\nF(\n#undef F\n1\n#define F(a, b, c) a b c\n)"), "");
 }
 
 TEST(Conditions, TakeTheRightLines) {
@@ -150,17 +153,17 @@ TEST(Conditions, HaveWholeNumbers) {
     EXPECT_TRUE(holds("-1 < 0 && 3 >= 3 && 2 != 3 && 1 <= 2 && -7 / 2 == -3 && 1 >> 70 == 0"));
     EXPECT_FALSE(holds("0 ? 1 : 0"));
     EXPECT_FALSE(holds("A - 3"));
-    EXPECT_EQ(said("#if 1 / 0\n#endif"), "error 1:7: division by zero in a condition\n");
-    EXPECT_EQ(said("#if\n#endif"), "error 1:2: this condition is not complete\n");
-    EXPECT_EQ(said("#if 1.5\n#endif"),
+    EXPECT_EQ(complaints("#if 1 / 0\n#endif"), "error 1:7: division by zero in a condition\n");
+    EXPECT_EQ(complaints("#if\n#endif"), "error 1:2: this condition is not complete\n");
+    EXPECT_EQ(complaints("#if 1.5\n#endif"),
               "error 1:5: a condition has whole numbers, names and operators only\n");
-    EXPECT_EQ(said("#if (1\n#endif"), "error 1:2: a ) is missing in this condition\n");
-    EXPECT_EQ(said("#if 1 2\n#endif"), "error 1:7: this does not belong to the condition\n");
-    EXPECT_EQ(said("#if defined(\n#endif"), "error 1:5: \"defined\" wants a name\n");
-    EXPECT_EQ(said("#if 1\n"), "error 1:2: this condition has no #endif\n");
-    EXPECT_EQ(said("#endif\n#else\n#if 1\n#else\n#elif 1\n#endif"),
+    EXPECT_EQ(complaints("#if (1\n#endif"), "error 1:2: a ) is missing in this condition\n");
+    EXPECT_EQ(complaints("#if 1 2\n#endif"), "error 1:7: this does not belong to the condition\n");
+    EXPECT_EQ(complaints("#if defined(\n#endif"), "error 1:5: \"defined\" wants a name\n");
+    EXPECT_EQ(complaints("#if 1\n"), "error 1:2: this condition has no #endif\n");
+    EXPECT_EQ(complaints("#endif\n#else\n#if 1\n#else\n#elif 1\n#endif"),
               "error 1:2: #endif without #if\nerror 2:2: #else without #if\nerror 5:2: #elif after #else\n");
-    EXPECT_EQ(said("#if -9223372036854775807 - 1 / -1 % -1 * 9223372036854775807\n#endif"), "");
+    EXPECT_EQ(complaints("#if -9223372036854775807 - 1 / -1 % -1 * 9223372036854775807\n#endif"), "");
 }
 
 TEST(Includes, AreSearchedBesideAndInFolders) {
@@ -231,8 +234,8 @@ TEST(Lines, AreRenumbered) {
     ASSERT_EQ(heard.size(), 2u);
     EXPECT_EQ(to_string(heard[0]), "other.h:21:4: error: here\n      #error here\n       ^");
     EXPECT_EQ(to_string(heard[1]), "real.sl:3:2: error: there\n    #error there\n     ^");
-    EXPECT_EQ(said("#line x"), "error 1:2: #line wants a line number\n");
-    EXPECT_EQ(said("#line 99999999999"), "error 1:2: #line wants a line number\n");
+    EXPECT_EQ(complaints("#line x"), "error 1:2: #line wants a line number\n");
+    EXPECT_EQ(complaints("#line 99999999999"), "error 1:2: #line wants a line number\n");
 }
 
 TEST(Bounds, ExpansionEnds) {
@@ -240,29 +243,29 @@ TEST(Bounds, ExpansionEnds) {
     for (int i = 1; i < 60; ++i)
         doubling += "#define M" + std::to_string(i) + " M" + std::to_string(i - 1) + " M" +
                     std::to_string(i - 1) + "\n";
-    EXPECT_NE(said(doubling + "M59").find("expand without end"), std::string::npos);
+    EXPECT_NE(complaints(doubling + "M59").find("expand without end"), std::string::npos);
     std::string words;
     for (int i = 0; i < (1 << 20) + 1; ++i) words += "x ";
-    EXPECT_NE(said(words).find("this file is too large after its macros"), std::string::npos);
+    EXPECT_NE(complaints(words).find("this file is too large after its macros"), std::string::npos);
     std::string arguments = "#define F(x) x x\n", call = "y";
     for (int i = 0; i < 60; ++i) call = "F(" + call + ")";
-    EXPECT_NE(said(arguments + call).find("expand without end"), std::string::npos);
+    EXPECT_NE(complaints(arguments + call).find("expand without end"), std::string::npos);
     call = "y";
     for (int i = 0; i < 5000; ++i) call = "F(" + call + ")";
-    EXPECT_NE(said("#define F(x) x\n" + call).find("nest too deeply"), std::string::npos);
+    EXPECT_NE(complaints("#define F(x) x\n" + call).find("nest too deeply"), std::string::npos);
     std::string chain = "#define C0 x\n";
     for (int i = 1; i < 5000; ++i)
         chain += "#define C" + std::to_string(i) + " C" + std::to_string(i - 1) + "\n";
-    EXPECT_NE(said(chain + "C4999").find("nest too deeply"), std::string::npos);
+    EXPECT_NE(complaints(chain + "C4999").find("nest too deeply"), std::string::npos);
     std::string pasting = "#define P(x) x ## x\n#define Q(x) P(x)\n";
     call = "abcdefgh";
     for (int i = 0; i < 40; ++i) call = "Q(" + call + ")";
-    EXPECT_NE(said(pasting + call).find("too much text"), std::string::npos);
+    EXPECT_NE(complaints(pasting + call).find("too much text"), std::string::npos);
     std::string conditions;
     for (int i = 0; i < 10000; ++i) conditions += "#if 1\n";
-    EXPECT_NE(said(conditions).find("conditions nest too deeply"), std::string::npos);
-    EXPECT_NE(said("#if " + std::string(100000, '(')).find("nests too deeply"), std::string::npos);
-    EXPECT_NE(said("#if " + std::string(100000, '!')).find("nests too deeply"), std::string::npos);
+    EXPECT_NE(complaints(conditions).find("conditions nest too deeply"), std::string::npos);
+    EXPECT_NE(complaints("#if " + std::string(100000, '(')).find("nests too deeply"), std::string::npos);
+    EXPECT_NE(complaints("#if " + std::string(100000, '!')).find("nests too deeply"), std::string::npos);
 }
 
 TEST(TokenValues, SaysWhatIsNoWord) {

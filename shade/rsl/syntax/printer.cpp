@@ -18,7 +18,8 @@ struct Written {
     int precedence;
 };
 
-/// An operator's mark and how tightly it binds.
+/// An operator's mark and how tightly it binds. The same precedences as the parser's table: what is printed
+/// has to read back as the same tree.
 Written written(Operator op) {
     switch (op) {
         case Operator::Or:
@@ -73,6 +74,7 @@ std::string number_text(float value) {
 }
 
 /// A string in quotation marks; token_values.cpp reads its escapes. Bytes beyond ASCII stay as they are.
+/// Octal escapes always have three digits, so that a digit behind one is not taken for part of it.
 std::string escaped(std::string_view value) {
     std::string text = "\"";
     for (const char c : value) {
@@ -145,7 +147,7 @@ class Printer {
         declarator(v);
     }
 
-    /// "a[3] = {1, 2, 3}": what stands behind the type.
+    /// "a[3] = {1, 2, 3}": what stands behind the type. An unsized array is one of a function's parameters.
     void declarator(const Variable& v) {
         text += v.name;
         if (v.type.length == Type::kUnsized) text += "[]";
@@ -262,7 +264,8 @@ int Printer::precedence(const Expression& e) {
     }
 }
 
-/// The expression without parentheses of its own.
+/// The expression without parentheses of its own. Who calls it has decided by the precedence of what stands
+/// around whether parentheses are needed.
 void Printer::bare(const Expression& e) {
     switch (e.kind) {
         case Expression::Kind::Number:
@@ -401,6 +404,7 @@ std::string print(const Expression& expression) {
     return printer.text;
 }
 
+/// Nested functions are printed with the shader that they stand in, all others before any shader.
 std::string print(const TranslationUnit& unit) {
     Printer printer;
     for (const auto& function : unit.functions)

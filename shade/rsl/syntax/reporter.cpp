@@ -18,10 +18,12 @@ void Reporter::error(SourceLocation at, std::string text) {
     }
 }
 
+/// Further ones are dropped without a word: warnings are no reason to stop.
 void Reporter::warning(SourceLocation at, std::string text) {
     if (++warnings_ <= kMostWarnings) diagnostics_.warning(at, std::move(text));
 }
 
+/// A note explains the error before it, and is of no use where that was dropped.
 void Reporter::note(SourceLocation at, std::string text) {
     if (last_shown_) diagnostics_.note(at, std::move(text));
 }

@@ -10,11 +10,14 @@
 
 namespace trapeze::rsl {
 
+/// A shader's source as it comes from a file, from a scene or from a test.
 struct Source {
     std::string name;  ///< as messages show it, and where #include "..." starts to look
     std::string text;
 };
 
+/// What the command line or the scene says about reading; it changes no meaning beyond macros and headers.
+/// Whoever confines rendering gives read_file, which refuses paths that are not open to the scene.
 struct CompileOptions {
     std::vector<std::string> include_folders;                      ///< in the order they are searched
     std::vector<std::pair<std::string, std::string>> defines;      ///< macros: name, replacement

@@ -39,6 +39,9 @@ SourceText joined_lines(std::string as_written) {
     return source;
 }
 
+/// Regular files alone: a named pipe or device would make the compiler wait for ever. Nothing too where it is
+/// larger than the bound: half a file would only make wrong errors. A file that shrinks meanwhile is taken as
+/// it was read.
 std::optional<std::string> read_file_from_disk(const std::string& path, size_t most_bytes) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) return {};

@@ -10,6 +10,8 @@
 namespace trapeze::rsl {
 
 /// A file whose lines end with \n alone, and whose lines that end with a backslash are joined with the next.
+/// Held in a deque by TokenStream, since tokens are views of `text`. as_written is shared with Diagnostics,
+/// which shows lines as the author has them.
 struct SourceText {
     std::string text;
     std::vector<size_t> joints;  ///< where in `text` lines were joined, ascending

@@ -31,12 +31,14 @@ struct Token {
     SourceLocation at;
     float number = 0;  ///< set by read_values()
 
+    /// A string of the same text is not meant: "if" in quotation marks is no word.
     bool is(std::string_view mark_or_name) const {
         return (kind == Kind::Mark || kind == Kind::Name) && text == mark_or_name;
     }
 };
 
-/// Tokens and the texts that they point into.
+/// Tokens and the texts that they point into. It must outlive whatever holds its tokens: the parser copies
+/// texts into the tree, and needs it no longer than that.
 struct TokenStream {
     std::vector<Token> tokens;  ///< the last one is an End
     /// Files in the order read. Deques, since what tokens view must not move.

@@ -24,7 +24,8 @@ std::optional<float> number_of(std::string_view text) {
     return static_cast<float>(value);
 }
 
-/// What an escape stands for; `i` is behind the backslash, and then behind the escape.
+/// What an escape stands for; `i` is behind the backslash, and then behind the escape. Up to three octal
+/// digits as in C; a value beyond a byte loses its upper bits.
 char escaped(std::string_view text, size_t& i) {
     // Letters and their values in the same order. Any other letter stands for itself.
     static constexpr std::string_view kLetters = "ntrbfav0", kValues("\n\t\r\b\f\a\v\0", 8);
@@ -39,7 +40,8 @@ char escaped(std::string_view text, size_t& i) {
     return letter == std::string_view::npos ? c : kValues[letter];
 }
 
-/// `text` with its quotation marks.
+/// `text` with its quotation marks. Strings that stand side by side become one, as in C, so values are
+/// appended.
 void append_value(std::string_view text, std::string& value) {
     text = text.substr(1, text.size() - 2);
     for (size_t i = 0; i < text.size();) {
@@ -50,7 +52,8 @@ void append_value(std::string_view text, std::string& value) {
     }
 }
 
-/// What is wrong with a token that is no word of the language.
+/// What is wrong with a token that is no word of the language. Bytes that a terminal cannot show, or might
+/// obey, are given by their number.
 std::string description(const Token& token) {
     if (token.text.starts_with('"')) return "this string has no end on its line";
     const auto byte = static_cast<unsigned char>(token.text.empty() ? 0 : token.text[0]);
@@ -64,6 +67,8 @@ std::string description(const Token& token) {
 
 }  // namespace
 
+/// Strings beside each other are joined here and not in the parser, so that a macro may stand among them, as
+/// in C.
 void read_values(TokenStream& stream, Reporter& reporter) {
     std::vector<Token>& tokens = stream.tokens;
     // Tokens are moved forward in place over those that are left out or joined.

@@ -13,16 +13,20 @@ enum class Base : uint8_t { Void, Bool, Float, Color, Point, Vector, Normal, Mat
 /// function's parameter what its arguments are (propagate_varying.h).
 enum class Storage : uint8_t { Unspecified, Uniform, Varying };
 
+/// The kinds of RISpec 3.2 but for transformation shaders, which no renderer ever had. The order is relied on
+/// by tables of names.
 enum class ShaderKind : uint8_t { Surface, Displacement, Light, Volume, Imager };
 
 /// A base type and, for arrays, a length. Storage is no part of it: it belongs to variables. Types are equal
-/// when both fields are, so an array of any length is equal to none of a known length.
+/// when both fields are, so an array of any length is equal to none of a known length. Arrays have one
+/// dimension, as in the language.
 struct Type {
     static constexpr int kUnsized = -1;  ///< `float a[]`: a function's array parameter of any length
 
     Base base = Base::Void;
     int length = 0;  ///< elements of an array; 0: not an array
 
+    /// Arrays of a length that is not known yet are arrays too.
     bool is_array() const { return length != 0; }
     bool is_triple() const {
         return base == Base::Color || base == Base::Point || base == Base::Vector || base == Base::Normal;

@@ -23,12 +23,14 @@ constexpr std::string_view kReserved[] = {
 
 }  // namespace
 
+/// A linear search over eight words; the lexer's tokens carry no number for them.
 Base base_named(std::string_view name) {
     for (const auto& row : kBases)
         if (row.name == name) return row.base;
     return Base::Void;
 }
 
+/// A Bool has no word in the language; messages call it so.
 std::string_view name_of(Base base) {
     for (const auto& row : kBases)
         if (row.base == base) return row.name;

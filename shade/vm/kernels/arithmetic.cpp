@@ -23,6 +23,9 @@ HWY_INLINE V subtract(V a, V b) {
 HWY_INLINE V multiply(V a, V b) {
     return hn::Mul(a, b);
 }
+
+/// Division by 0 gives infinity or NaN, as floats have it: RISpec leaves it open, and shaders test for it
+/// themselves.
 HWY_INLINE V divide(V a, V b) {
     return hn::Div(a, b);
 }
@@ -46,6 +49,8 @@ HWY_INLINE V sign(V x) {
     const V zero = hn::Zero(D());
     return hn::Sub(hn::IfThenElseZero(hn::Gt(x, zero), set(1)), hn::IfThenElseZero(hn::Lt(x, zero), set(1)));
 }
+
+/// The sign of x survives in a zero, as in floor_of(): targets must agree in every bit.
 HWY_INLINE V ceil_of(V x) {
     return hn::CopySign(hn::Ceil(x), x);
 }
@@ -54,7 +59,8 @@ HWY_INLINE V round_of(V x) {
     const V low = floor_of(x);
     return hn::Add(low, hn::IfThenElseZero(hn::Ge(hn::Sub(x, low), set(0.5f)), set(1)));
 }
-/// In [0, b), or (b, 0] for negative b, also where a / b rounds to a whole number; 0 for b = 0.
+/// In [0, b), or (b, 0] for negative b, also where a / b rounds to a whole number; 0 for b = 0. The sign is
+/// that of b, unlike that of C's fmod().
 HWY_INLINE V mod(V a, V b) {
     const V zero = hn::Zero(D());
     const V rest = hn::Sub(a, hn::Mul(b, floor_of(hn::Div(a, b))));
@@ -63,6 +69,9 @@ HWY_INLINE V mod(V a, V b) {
     const V inside = hn::Add(rest, hn::IfThenElseZero(past, b));
     return hn::IfThenZeroElse(hn::Or(hn::Eq(b, zero), hn::Eq(inside, b)), inside);
 }
+
+/// Written with comparisons, since Highway's Min() and Max() treat NaN in different ways on different
+/// targets.
 HWY_INLINE V least(V a, V b) {
     return at_most(a, b);
 }
@@ -89,7 +98,9 @@ HWY_INLINE V smooth_step(V low, V high, V x) {
     return hn::IfThenElse(hn::Lt(low, high), smooth, step_at(low, x));
 }
 
-/// out = function(... function(first, second) ..., last).
+/// out = function(... function(first, second) ..., last). min() and max() of RISpec take any number of
+/// arguments. The result is kept in vectors until all inputs of the lane group have been read, for the output
+/// may be one of them.
 template <auto function, int width>
 void fold(size_t lanes, Operands o) {
     const Output out(o[0]);

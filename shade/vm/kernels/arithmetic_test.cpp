@@ -8,6 +8,9 @@ namespace trapeze::vm {
 namespace {
 
 using rsl::Op;
+using testing::check_kernel;
+using testing::KernelNumbers;
+using testing::Register;
 using Floats = std::vector<float>;
 
 /// Checks the kernels for floats and triples, and for triples of floats, against a function of components.
@@ -75,7 +78,7 @@ TEST(Arithmetic, OfThreeNumbers) {
 }
 
 TEST(Arithmetic, RemaindersAreInsideTheirPeriod) {
-    Numbers numbers;
+    KernelNumbers numbers;
     const auto whole = [&] { return std::floor(numbers.between(-1e6f, 1e6f)); };
     const auto period = [&] { return static_cast<float>(numbers.below(100) - 50); };
     const auto floored = [](const auto& in, double* out) {
@@ -113,7 +116,7 @@ TEST(Arithmetic, OfMatrices) {
 }
 
 TEST(Arithmetic, SelectsByMask) {
-    Numbers numbers;
+    KernelNumbers numbers;
     const auto mask = [&] { return std::bit_cast<float>(numbers.below(2) ? ~0u : 0u); };
     const auto value = [&] { return numbers.any(); };
     for (int width : {1, 3, 16})
@@ -128,7 +131,7 @@ TEST(Arithmetic, SelectsByMask) {
 
 TEST(Arithmetic, OutputsMayBeInputs) {
     Register a(3, false, 64), b(1, true, 64);
-    Numbers numbers;
+    KernelNumbers numbers;
     a.fill([&] { return numbers.moderate(); });
     b.fill([] { return 0.25f; });
     const Register before = a;

@@ -46,7 +46,8 @@ HWY_INLINE V to_float(V a) {
     return hn::And(a, set(1));
 }
 
-/// Whether all components are equal; when negated, whether any is not.
+/// Whether all components are equal; when negated, whether any is not. NaN equals nothing, as everywhere in
+/// C.
 template <int width, bool negated>
 void equal(size_t lanes, Operands o) {
     const Output out(o[0]);
@@ -58,7 +59,8 @@ void equal(size_t lanes, Operands o) {
     }
 }
 
-/// A float beside a triple or matrix is compared with each of its components.
+/// A float beside a triple or matrix is compared with each of its components. A float's stride of 0 makes
+/// Input::get() return its one component for every k.
 template <bool negated>
 Kernel find_equal(std::span<const int> widths) {
     if (widths.size() != 3) return nullptr;

@@ -9,6 +9,10 @@ namespace trapeze::vm {
 namespace {
 
 using rsl::Op;
+using testing::check_kernel;
+using testing::for_each_target;
+using testing::KernelNumbers;
+using testing::Register;
 
 const float kTrue = std::bit_cast<float>(~0u);
 
@@ -35,7 +39,7 @@ void check_mask(Op op, const std::vector<int>& widths, const std::function<float
 }
 
 TEST(Bools, CompareNumbers) {
-    Numbers numbers;
+    KernelNumbers numbers;
     const auto any = [&] { return numbers.any(); };
     check_mask(Op::Less, {1, 1, 1}, any, [](const auto& in) { return in[0][0] < in[1][0]; });
     check_mask(Op::LessEqual, {1, 1, 1}, any, [](const auto& in) { return in[0][0] <= in[1][0]; });
@@ -60,7 +64,7 @@ TEST(Bools, EveryComponentCounts) {
 }
 
 TEST(Bools, CombineMasks) {
-    Numbers numbers;
+    KernelNumbers numbers;
     const auto mask = [&] { return numbers.below(2) ? kTrue : 0; };
     const auto is = [](const std::vector<float>& x) { return std::bit_cast<uint32_t>(x[0]) != 0; };
     check_mask(Op::And, {1, 1, 1}, mask, [&](const auto& in) { return is(in[0]) && is(in[1]); });

@@ -99,6 +99,9 @@ HWY_INLINE V3 hsv_from_rgb(const V3& c) {
     const Hue h = hue_of(c);
     return {h.hue, ratio(hn::Sub(h.most, h.least), h.most), h.most};
 }
+
+/// Each channel is the value less what of the chroma its primary lacks at this hue: no case for each sixth of
+/// the circle, and so no branch. The offsets 5, 3 and 1 belong to red, green and blue.
 HWY_INLINE V3 rgb_from_hsv(const V3& c) {
     const V chroma = hn::Mul(c.y, c.z);
     return {hn::Sub(c.z, hn::Mul(chroma, absence(c.x, 5))), hn::Sub(c.z, hn::Mul(chroma, absence(c.x, 3))),
@@ -111,6 +114,8 @@ HWY_INLINE V3 hsl_from_rgb(const V3& c) {
     const V range = hn::IfThenElse(hn::Le(lightness, set(0.5f)), sum, hn::Sub(set(2), sum));
     return {h.hue, ratio(hn::Sub(h.most, h.least), range), lightness};
 }
+
+/// The same with lightness in the middle: the channels go as far above it as below.
 HWY_INLINE V3 rgb_from_hsl(const V3& c) {
     const V half_chroma = hn::Mul(c.y, at_most(c.z, hn::Sub(set(1), c.z)));
     const auto channel = [&](float offset) HWY_ATTR {
@@ -124,6 +129,8 @@ HWY_INLINE V3 xyy_from_xyz(const V3& c) {
     const V scale_down = ratio(set(1), hn::Add(hn::Add(c.x, c.y), c.z));
     return {hn::Mul(c.x, scale_down), hn::Mul(c.y, scale_down), c.y};
 }
+
+/// Its inverse: a y of 0, which is black's, gives X = Z = 0 (ratio()).
 HWY_INLINE V3 xyz_from_xyy(const V3& c) {
     const V scale_up = ratio(c.z, c.y);
     return {hn::Mul(c.x, scale_up), c.z, hn::Mul(hn::Sub(hn::Sub(set(1), c.x), c.y), scale_up)};
@@ -149,6 +156,8 @@ HWY_INLINE V3 from_rgb(const V3& c) {
     return c;
 }
 
+/// From a space to itself the colour is copied bit by bit and not sent by way of rgb, where it would be
+/// rounded.
 template <ColorSpace from, ColorSpace to>
 void convert(size_t lanes, Operands o) {
     const Output out(o[0]);
@@ -162,6 +171,7 @@ void convert(size_t lanes, Operands o) {
     }
 }
 
+/// Instantiated for each pair of spaces, so that a kernel converts without looking at names or kinds.
 template <ColorSpace from>
 Kernel find_to(ColorSpace to) {
     switch (to) {

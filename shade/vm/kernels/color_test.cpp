@@ -10,6 +10,11 @@
 namespace trapeze::vm {
 namespace {
 
+using testing::for_each_target;
+using testing::KernelNumbers;
+using testing::Register;
+using testing::same_float;
+
 V3d convert(const char* from, const char* to, const V3f& c) {
     Register out(3, true, kLanes), in(3, true, kLanes);
     for (int k = 0; k < 3; ++k) in.set(0, k, c[k]);
@@ -31,7 +36,7 @@ V3d rgb_from_hsv(const V3d& c) {
 }
 
 TEST(Color, HuesMakeAHexagon) {
-    Numbers numbers;
+    KernelNumbers numbers;
     for (int i = 0; i < 500; ++i) {
         const V3f hsv(numbers.between(0, 0.9999f), numbers.between(0.01f, 1), numbers.between(0.01f, 2));
         const V3d rgb = rgb_from_hsv(V3d(hsv));
@@ -70,7 +75,7 @@ TEST(Color, WhiteIsD65) {
 
 TEST(Color, ConversionsComeBack) {
     constexpr const char* kSpaces[] = {"rgb", "hsv", "hsl", "xyz", "xyY", "YIQ"};
-    Numbers numbers;
+    KernelNumbers numbers;
     for (const char* from : kSpaces)
         for (const char* to : kSpaces)
             for (int i = 0; i < 20; ++i) {
@@ -84,7 +89,7 @@ TEST(Color, ConversionsComeBack) {
 
 TEST(Color, IsTheSameOnAllTargets) {
     constexpr const char* kSpaces[] = {"rgb", "hsv", "hsl", "xyz", "xyY", "YIQ"};
-    Numbers numbers;
+    KernelNumbers numbers;
     for (bool moderate : {true, false})
         for (const char* from : kSpaces)
             for (const char* to : kSpaces) {

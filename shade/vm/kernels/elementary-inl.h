@@ -42,6 +42,8 @@ HWY_INLINE VI low_words(const Doubles& x) {
 }
 #else
 using DD = hn::Repartition<double, D>;
+
+/// A vector of doubles has half as many lanes as one of floats of the same size: two of them hold a V's.
 struct Doubles {
     hn::Vec<DD> part[2];
 };
@@ -60,6 +62,7 @@ HWY_INLINE VI low_words(const Doubles& x) {
 #endif
 using VD = hn::Vec<DD>;
 
+/// A constant that a float does not hold exactly.
 HWY_INLINE VD set_double(double x) {
     return hn::Set(DD(), x);
 }
@@ -96,6 +99,8 @@ HWY_INLINE V sine_near_zero(V r, V rr) {
     p = step(p, rr, -1.6666654611e-1f);
     return hn::Add(hn::Mul(hn::Mul(p, rr), r), r);
 }
+
+/// cos(r) for |r| <= pi / 4, where rr = r * r: Cephes' cosf.
 HWY_INLINE V cosine_near_zero(V rr) {
     V p = set(2.443315711809948e-5f);
     p = step(p, rr, -1.388731625493765e-3f);
@@ -111,6 +116,7 @@ HWY_INLINE V sine_of(V sine, V cosine, VI quadrants) {
     return hn::Xor(hn::IfThenElse(odd, cosine, sine), hn::BitCast(D(), sign));
 }
 
+/// Both, of one angle.
 struct SineCosine {
     V sine, cosine;
 };
@@ -158,6 +164,9 @@ struct ArcParts {
     M outer;
     V arc;
 };
+
+/// Beyond 1/2 the series would converge badly: there asin(a) = pi/2 - 2 asin(sqrt((1 - a) / 2)) brings the
+/// argument back below it.
 HWY_INLINE ArcParts arc_parts(V x) {
     const V a = at_most(hn::Abs(x), set(1));
     const M outer = hn::Gt(a, set(0.5f));
@@ -165,11 +174,15 @@ HWY_INLINE ArcParts arc_parts(V x) {
     const V ss = hn::IfThenElse(outer, half_rest, hn::Mul(a, a));
     return {outer, arc_sine_near_zero(hn::IfThenElse(outer, hn::Sqrt(half_rest), a), ss)};
 }
+
+/// Beyond 1/2 by asin x = pi / 2 - 2 asin sqrt((1 - x) / 2), since the series converges badly near 1.
 HWY_INLINE V arc_sine(V x) {
     const ArcParts parts = arc_parts(x);
     const V outer = hn::Sub(set(kHalfPi), hn::Add(parts.arc, parts.arc));
     return hn::CopySign(hn::IfThenElse(parts.outer, outer, parts.arc), x);
 }
+
+/// Near 1 and -1 by the small arc, and not as pi / 2 - asin x, where the digits would cancel.
 HWY_INLINE V arc_cosine(V x) {
     const ArcParts parts = arc_parts(x);
     const V twice = hn::Add(parts.arc, parts.arc);
@@ -177,7 +190,9 @@ HWY_INLINE V arc_cosine(V x) {
     return hn::IfThenElse(parts.outer, outer, hn::Sub(set(kHalfPi), hn::CopySign(parts.arc, x)));
 }
 
-/// atan(n / d) for 0 <= n <= d, both finite; 0 for d = 0.
+/// atan(n / d) for 0 <= n <= d, both finite; 0 for d = 0. Ratios above tan(pi / 8) are turned back by pi / 4
+/// first, to (n - d) / (n + d), so that the polynomial sees no more than tan(pi / 8); `safe` keeps n + d from
+/// overflowing.
 HWY_INLINE V arc_tangent_of_ratio(V n, V d) {
     const M outer = hn::Gt(n, hn::Mul(d, set(0.414213562f)));  // tan(pi / 8)
     const V safe = hn::IfThenElse(hn::Gt(d, set(1e38f)), set(0.25f), set(1));
@@ -193,7 +208,9 @@ HWY_INLINE V arc_tangent_of_ratio(V n, V d) {
     const V arc = hn::Add(hn::Mul(hn::Mul(p, aa), a), a);
     return hn::Add(arc, hn::IfThenElseZero(outer, set(kHalfPi / 2)));
 }
-/// The angle of (x, y), -pi to pi.
+/// The angle of (x, y), -pi to pi. The smaller of both magnitudes goes over the larger one; then the octant,
+/// the half plane and the sign are put back. Infinities count as the largest float, so that no quotient of
+/// two of them arises.
 HWY_INLINE V arc_tangent(V y, V x) {
     const V most = set(3.402823466e38f);
     const V ax = at_most(hn::Abs(x), most), ay = at_most(hn::Abs(y), most);

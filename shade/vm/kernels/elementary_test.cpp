@@ -8,6 +8,9 @@ namespace trapeze::vm {
 namespace {
 
 using rsl::Op;
+using testing::check_kernel;
+using testing::KernelNumbers;
+using testing::Register;
 using Inputs = std::vector<std::vector<float>>;
 constexpr double kLeastNormal = 1.17549435e-38f;
 
@@ -21,7 +24,7 @@ struct OneNumber {
 /// Many arguments in a range, every magnitude alike where the range is wide, at both widths.
 void check_function(const OneNumber& f) {
     SCOPED_TRACE(::testing::Message() << "op " << int(f.op) << " from " << f.least << " to " << f.most);
-    Numbers numbers;
+    KernelNumbers numbers;
     const auto argument = [&] {
         const float low = static_cast<float>(f.least), high = static_cast<float>(f.most);
         if (high <= 100 && numbers.below(2)) return numbers.between(low, high);
@@ -60,7 +63,7 @@ TEST(Elementary, ExponentialsAndLogarithms) {
 }
 
 TEST(Elementary, AnglesOfVectors) {
-    Numbers numbers;
+    KernelNumbers numbers;
     const auto exact = [](const Inputs& in, double* out) {
         const double y = in[0][0], x = in[1][0];
         *out = x == 0 && y == 0 ? y : std::atan2(y, x);
@@ -70,7 +73,7 @@ TEST(Elementary, AnglesOfVectors) {
 }
 
 TEST(Elementary, Powers) {
-    Numbers numbers;
+    KernelNumbers numbers;
     const auto exact = [](const Inputs& in, double* out) {
         *out = std::pow(double{in[0][0]}, double{in[1][0]});
     };
@@ -112,7 +115,7 @@ TEST(Elementary, ArgumentsOutsideTheDomainAreClamped) {
 }
 
 TEST(Elementary, NothingGivesNoNumber) {
-    Numbers numbers;
+    KernelNumbers numbers;
     for (Op op : {Op::Exp, Op::Log, Op::Sin, Op::Cos, Op::Tan, Op::Asin, Op::Acos, Op::Atan})
         for (int i = 0; i < 300; ++i) {
             const float x = numbers.any();

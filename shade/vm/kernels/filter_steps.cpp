@@ -12,7 +12,8 @@ HWY_BEFORE_NAMESPACE();
 namespace trapeze::vm::HWY_NAMESPACE {
 namespace {
 
-/// The share above an edge of what lies from x to x + width.
+/// The share above an edge of what lies from x to x + width. This is the convolution of a step with a box
+/// filter, which is all that filterstep() promises.
 HWY_INLINE V share_above(V edge, V x, V width) {
     const V share = hn::Div(hn::Sub(hn::Add(x, width), edge), width);
     const V step_there = hn::IfThenZeroElse(hn::Lt(x, edge), set(1));
@@ -30,7 +31,8 @@ void step_around(size_t lanes, const Operand& edges, const Operand& xs, const Op
     }
 }
 
-/// The interval from the lesser to the greater of two values.
+/// The interval from the lesser to the greater of two values. The interval has no filter's width of its own:
+/// it is what the shader says x runs over.
 void step_between(size_t lanes, const Operand& edges, const Operand& xs, const Operand& x2s,
                   const Operand& result) {
     const Input edge(edges), first(xs), second(x2s);

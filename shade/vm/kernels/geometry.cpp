@@ -20,12 +20,14 @@ void dot_product(size_t lanes, Operands o) {
     for (size_t i = 0; i < lanes; i += lane_count()) out.put(dot(a.get3(i), b.get3(i)), i);
 }
 
+/// The handedness of the result is that of the coordinate system: nothing is flipped here.
 void cross_product(size_t lanes, Operands o) {
     const Output out(o[0]);
     const Input a(o[1]), b(o[2]);
     for (size_t i = 0; i < lanes; i += lane_count()) out.put3(cross(a.get3(i), b.get3(i)), i);
 }
 
+/// Squares may overflow for vectors longer than about 1e19; no scene has such.
 void length(size_t lanes, Operands o) {
     const Output out(o[0]);
     const Input in(o[1]);
@@ -102,12 +104,14 @@ HWY_INLINE V reflectance(V toward, V eta) {
     return at_most(hn::IfThenElse(hn::Gt(squared, hn::Zero(D())), mean, set(1)), set(1));
 }
 
+/// I points to the surface and is not turned: the result points away from it.
 void reflect(size_t lanes, Operands o) {
     const Output out(o[0]);
     const Input I(o[1]), N(o[2]);
     for (size_t i = 0; i < lanes; i += lane_count()) out.put3(reflection(I.get3(i), N.get3(i)), i);
 }
 
+/// Zero for total internal reflection, where squared_cosine_inside() is negative.
 void refract(size_t lanes, Operands o) {
     const Output out(o[0]);
     const Input I(o[1]), N(o[2]), eta(o[3]);

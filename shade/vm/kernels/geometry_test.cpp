@@ -9,6 +9,11 @@ namespace trapeze::vm {
 namespace {
 
 using rsl::Op;
+using testing::check_kernel;
+using testing::for_each_target;
+using testing::KernelNumbers;
+using testing::LaneFunction;
+using testing::Register;
 
 V3d triple(const std::vector<float>& x) {
     return {x[0], x[1], x[2]};
@@ -19,7 +24,7 @@ void put(const V3d& v, double* out) {
 }
 
 TEST(Geometry, Products) {
-    Numbers numbers;
+    KernelNumbers numbers;
     const auto near_one = [&] { return numbers.below(9) ? numbers.between(-2, 2) : 0.0f; };
     const auto check = [&](Op op, std::vector<int> widths, const LaneFunction& exact) {
         SCOPED_TRACE(::testing::Message() << "op " << int(op));
@@ -41,7 +46,7 @@ TEST(Geometry, Products) {
 /// Pairs of unit vectors and a ratio of indices, by lane.
 struct Facing {
     explicit Facing(bool uniform) : I(3, uniform, 256), N(3, uniform, 256), eta(1, uniform, 256) {
-        Numbers numbers;
+        KernelNumbers numbers;
         for (size_t i = 0; i < 256; ++i) {
             for (Register* r : {&I, &N}) {
                 const V3f v(numbers.between(-1, 1), numbers.between(-1, 1), numbers.between(-1, 1));
@@ -114,7 +119,7 @@ TEST(Geometry, ReflectsAndRefractsByThemselvesAsInFresnel) {
 }
 
 TEST(Geometry, TurnsAboutLinesAndMeasuresFromThem) {
-    Numbers numbers;
+    KernelNumbers numbers;
     const auto number = [&] { return numbers.between(-2, 2); };
     check_kernel({Op::Rotate,
                   {3, 3, 1, 3, 3},

@@ -13,7 +13,9 @@ struct ShadingGrid;
 
 namespace trapeze::vm {
 
-/// Lanes first .. first + shape.vertex_count() - 1, row by row, u fastest.
+/// Lanes first .. first + shape.vertex_count() - 1, row by row, u fastest. Spans of a batch stand in the
+/// order of their lanes and leave no gap; only behind the last one may lanes be left over, up to a whole
+/// vector.
 struct GridSpan {
     size_t first = 0;
     GridShape shape;

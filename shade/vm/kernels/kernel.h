@@ -15,7 +15,8 @@
 
 namespace trapeze::vm {
 
-/// One register as kernels see it. All planes are 64-byte aligned and padded as planes.h says.
+/// One register as kernels see it. All planes are 64-byte aligned and padded as planes.h says. It is a view:
+/// Registers or the scratch of a run own the planes, and a kernel never keeps one beyond its call.
 struct Operand {
     float* data = nullptr;  ///< component 0
     size_t lane_mask = 0;   ///< lane i is at data[i & lane_mask]: ~0 varying, 0 uniform (i is a multiple of

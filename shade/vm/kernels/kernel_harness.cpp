@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace trapeze::vm {
+namespace trapeze::testing {
 
 Register::Register(int width, bool uniform, size_t lanes, int length)
     : width_(width),
@@ -13,8 +13,8 @@ Register::Register(int width, bool uniform, size_t lanes, int length)
       plane_(uniform ? kLanes : padded_size(lanes)),
       storage_(plane_ / kLanes * static_cast<size_t>(width * std::max(length, 1))) {}
 
-Operand Register::operand() {
-    Operand o;
+vm::Operand Register::operand() {
+    vm::Operand o;
     o.data = storage_.data()->lanes;
     o.lane_mask = uniform_ ? 0 : ~size_t{0};
     o.stride = width_ == 1 ? 0 : plane_;
@@ -38,7 +38,7 @@ void Register::fill(const std::function<float()>& number) {
             for (size_t i = 0; i < (uniform_ ? 1 : plane_); ++i) set(i, k, number(), element);
 }
 
-float Numbers::any() {
+float KernelNumbers::any() {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     constexpr float kTable[] = {0,
                                 -0.0f,
@@ -64,7 +64,7 @@ float Numbers::any() {
     return below(2) ? magnitude : -magnitude;
 }
 
-float Numbers::moderate() {
+float KernelNumbers::moderate() {
     if (below(8) == 0) return 0;
     const float magnitude = std::exp2(between(-20, 20));
     return below(2) ? magnitude : -magnitude;
@@ -88,7 +88,7 @@ namespace {
 
 using KernelRegisters = std::vector<Register>;
 
-KernelRegisters make_inputs(const KernelCheck& check, unsigned varying, Numbers& numbers) {
+KernelRegisters make_inputs(const KernelCheck& check, unsigned varying, KernelNumbers& numbers) {
     KernelRegisters inputs;
     for (size_t j = check.outputs; j < check.widths.size(); ++j) {
         const size_t input = j - check.outputs;
@@ -103,11 +103,11 @@ KernelRegisters make_inputs(const KernelCheck& check, unsigned varying, Numbers&
 
 KernelRegisters run(const KernelCheck& check, bool uniform, KernelRegisters& inputs) {
     KernelRegisters outputs;
-    std::vector<Operand> operands;
+    std::vector<vm::Operand> operands;
     for (size_t j = 0; j < check.outputs; ++j) outputs.emplace_back(check.widths[j], uniform, check.lanes);
     for (Register& output : outputs) operands.push_back(output.operand());
     for (Register& input : inputs) operands.push_back(input.operand());
-    const Kernel kernel = find_kernel(check.op, check.widths);
+    const vm::Kernel kernel = vm::find_kernel(check.op, check.widths);
     EXPECT_NE(kernel, nullptr);
     if (kernel) kernel(uniform ? kLanes : check.lanes, operands);
     return outputs;
@@ -141,7 +141,7 @@ void expect_near_scalar(const KernelCheck& check, const KernelRegisters& inputs,
 
 void check_kernel(const KernelCheck& check) {
     const size_t input_count = check.widths.size() - check.outputs;
-    Numbers numbers;
+    KernelNumbers numbers;
     for (unsigned varying = 0; varying < 1u << input_count; ++varying) {
         SCOPED_TRACE(::testing::Message() << "varying inputs: " << varying);
         KernelRegisters inputs = make_inputs(check, varying, numbers);
@@ -160,4 +160,4 @@ void check_kernel(const KernelCheck& check) {
     }
 }
 
-}  // namespace trapeze::vm
+}  // namespace trapeze::testing

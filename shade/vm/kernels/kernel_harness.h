@@ -13,7 +13,7 @@
 #include "core/simd/targets_harness.h"
 #include "shade/vm/kernels/kernel.h"
 
-namespace trapeze::vm {
+namespace trapeze::testing {
 
 /// A register, or an array of them, with its planes.
 class Register {
@@ -21,7 +21,7 @@ class Register {
     /// The planes of a float have no stride, those of a uniform register 16 lanes.
     Register(int width, bool uniform, size_t lanes, int length = 0);
 
-    Operand operand();
+    vm::Operand operand();
     int width() const { return width_; }
     float at(size_t lane, int k, int element = 0) const { return planes()[index(lane, k, element)]; }
     /// Of a uniform register: in all lanes.
@@ -44,7 +44,7 @@ class Register {
 };
 
 /// Random numbers for tests, the same in each run.
-class Numbers {
+class KernelNumbers {
   public:
     float between(float low, float high) { return std::uniform_real_distribution<float>(low, high)(random_); }
     /// Of any sign and magnitude, a third of them from a table of zeros, whole numbers and extremes.
@@ -79,7 +79,7 @@ struct KernelCheck {
 };
 
 /// Runs the kernel with uniform and varying inputs in all combinations, on every target; all must give the
-/// same bits and be near the exact values. `numbers` default to Numbers::any().
+/// same bits and be near the exact values. `numbers` default to KernelNumbers::any().
 void check_kernel(const KernelCheck& check);
 
-}  // namespace trapeze::vm
+}  // namespace trapeze::testing

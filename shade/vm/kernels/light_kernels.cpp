@@ -43,7 +43,8 @@ void sum_diffuse(size_t lanes, const Operand& N, const Operand& L, const Operand
 /// renderers that had 8 / roughness.
 constexpr float kSpecularExponent = 8;
 
-/// pow() is the quick one, in floats: a highlight's exponent needs no more.
+/// pow() is the quick one, in floats: a highlight's exponent needs no more. No highlight where the light is
+/// behind the surface, though the halfway vector may still be in front.
 HWY_INLINE V specular_lobe(const V3& N, const V3& view, const V3& L, V roughness) {
     const V3 h = add(view, L);
     const V cosine = at_most(positive(hn::Mul(dot(N, h), inverse_length(h))), set(1));

@@ -11,6 +11,10 @@
 namespace trapeze::vm {
 namespace {
 
+using testing::for_each_target;
+using testing::KernelNumbers;
+using testing::Register;
+
 constexpr size_t kLit = 128;
 
 V3d at(const Register& r, size_t i) {
@@ -59,7 +63,7 @@ class LightKernels : public ::testing::TestWithParam<bool> {
         first_.clear();
     }
 
-    Numbers numbers_;
+    KernelNumbers numbers_;
     std::vector<Register> first_;
     Register N, V, L, Cl, roughness, size, before;
 };

@@ -34,6 +34,8 @@ HWY_INLINE V set(float x) {
 HWY_INLINE V positive(V x) {
     return hn::IfThenElseZero(hn::Gt(x, hn::Zero(D())), x);
 }
+
+/// `limit` where x is NaN, in this and the next: a comparison with NaN is false.
 HWY_INLINE V at_most(V x, V limit) {
     return hn::IfThenElse(hn::Lt(x, limit), x, limit);
 }
@@ -46,6 +48,7 @@ HWY_INLINE V step(V rest, V x, float c) {
     return hn::Add(hn::Mul(rest, x), set(c));
 }
 
+/// The order of the sum is fixed, from x to z, so that all targets and methods round alike.
 HWY_INLINE V dot(V ax, V ay, V az, V bx, V by, V bz) {
     return hn::Add(hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)), hn::Mul(az, bz));
 }
@@ -62,6 +65,9 @@ struct Scientific {
     VI exponent;
     V f;
 };
+
+/// Subtracting the bits of sqrt(1/2) first makes the mantissa lie between sqrt(1/2) and sqrt(2), about 1,
+/// where the logarithm's series needs fewest terms.
 HWY_INLINE Scientific split_exponent(V x) {
     const DI di;
     const VI bits = hn::BitCast(di, x);

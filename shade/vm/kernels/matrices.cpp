@@ -14,7 +14,8 @@ namespace {
 
 using rsl::Op;
 
-/// A matrix for each lane of a vector, in sixteen of them: rows of four.
+/// A matrix for each lane of a vector, in sixteen of them: rows of four. Element (row, column) is m[4 row +
+/// column], as RIB writes matrices; a translation is the last row.
 struct Matrix {
     HWY_INLINE V operator()(int row, int column) const { return m[row * 4 + column]; }
     HWY_INLINE V3 row(int i) const { return {m[i * 4], m[i * 4 + 1], m[i * 4 + 2]}; }
@@ -31,7 +32,8 @@ HWY_INLINE void write(const Matrix& m, const Output& out, size_t i) {
     for (int k = 0; k < 16; ++k) out.put(m.m[k], i, k);
 }
 
-/// Row vectors go through a first, then b. Sums run in the order of k.
+/// Row vectors go through a first, then b. Sums run in the order of k. The order is fixed, so that all widths
+/// of vectors round alike.
 HWY_INLINE Matrix product(const Matrix& a, const Matrix& b) {
     Matrix out;
     for (int row = 0; row < 4; ++row)
@@ -101,6 +103,7 @@ HWY_INLINE Matrix inverse(const Matrix& m) {
     return out;
 }
 
+/// Both matrices are read whole before the product is written, for the output may be either.
 void multiply(size_t lanes, Operands o) {
     const Output out(o[0]);
     const Input a(o[1]), b(o[2]);
@@ -114,6 +117,7 @@ void divide(size_t lanes, Operands o) {
     for (size_t i = 0; i < lanes; i += lane_count()) write(product(read(a, i), inverse(read(b, i))), out, i);
 }
 
+/// Matrices are of 16 planes, row by row, for row vectors.
 void invert(size_t lanes, Operands o) {
     const Output out(o[0]);
     const Input in(o[1]);
@@ -181,7 +185,8 @@ void rotate(size_t lanes, Operands o) {
     }
 }
 
-/// Divided by w, unless it is 0.
+/// Divided by w, unless it is 0. One division for three components, which may differ from three by a last
+/// bit.
 void transform_point(size_t lanes, Operands o) {
     const Output out(o[0]);
     const Input m(o[1]), in(o[2]);

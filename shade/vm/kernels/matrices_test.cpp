@@ -10,6 +10,11 @@ namespace trapeze::vm {
 namespace {
 
 using rsl::Op;
+using testing::check_kernel;
+using testing::for_each_target;
+using testing::KernelNumbers;
+using testing::LaneFunction;
+using testing::Register;
 using Inputs = std::vector<std::vector<float>>;
 using M44d = Imath::M44d;
 
@@ -42,7 +47,7 @@ class Matrices : public ::testing::Test {
         SCOPED_TRACE(::testing::Message() << "op " << int(op));
         check_kernel({op, std::move(widths), exact, std::move(numbers), 4, 4e-6});
     }
-    Numbers numbers_;
+    KernelNumbers numbers_;
 };
 
 double largest(const M44d& m) {

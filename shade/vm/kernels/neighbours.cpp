@@ -28,7 +28,8 @@ struct Row3 {
 /// Along rows, or from row to row.
 enum class Axis { U, V };
 
-/// Differences along an axis of row j of a span's plane.
+/// Differences along an axis of row j of a span's plane. Central inside, one-sided at the two ends, for a
+/// grid's neighbours in the surface are not known when it is shaded.
 HWY_INLINE void difference_u(const float* HWY_RESTRICT row, int count, float* HWY_RESTRICT out) {
     if (count < 2) {
         out[0] = 0;
@@ -38,6 +39,9 @@ HWY_INLINE void difference_u(const float* HWY_RESTRICT row, int count, float* HW
     out[0] = row[1] - row[0];
     out[count - 1] = row[count - 1] - row[count - 2];
 }
+
+/// Central differences within the grid, one-sided ones at its first and last row; in steps of one row,
+/// whatever the parameter's own step is.
 HWY_INLINE void difference_v(const float* HWY_RESTRICT row, int count, int j, int rows,
                              float* HWY_RESTRICT out) {
     const float* before = j > 0 ? row - count : row;
@@ -46,7 +50,8 @@ HWY_INLINE void difference_v(const float* HWY_RESTRICT row, int count, int j, in
     for (int i = 0; i < count; ++i) out[i] = (after[i] - before[i]) * share;
 }
 
-/// A row of a span.
+/// A row of a span. A view that the loops below pass by value: `first` is where the row begins in the planes
+/// of the batch.
 struct RowOf {
     const GridSpan& span;
     int j;
@@ -176,7 +181,8 @@ int inside_of(int i, int last) {
     return i == 0 ? std::min(1, last) : last - 1;
 }
 
-/// What is missing at the borders of a grid is as it is inside.
+/// What is missing at the borders of a grid is as it is inside. At borders a parameter's step may vanish, as
+/// at a sphere's pole, and the quotient with it.
 void take_from_inside(const Derivatives& inside, const RowOf& row, int width, Derivatives& here) {
     const int last = row.count() - 1;
     for (int i = 0; i <= last; ++i) {
@@ -198,7 +204,8 @@ HWY_INLINE void all_derivatives(const RowOf& row, int width, Axis along, const O
     take_from_inside(inside, row, width, here);
 }
 
-/// Du or Dv of each component, row by row.
+/// Du or Dv of each component, row by row. `p` is the parameter that `along` follows and `q` the other one:
+/// swapped, the same code makes Dv of Du.
 HWY_INLINE void differentiate(GridSpans spans, size_t lanes, int width, Axis along, const Operand& value,
                               const Operand& p, const Operand& q, const Operand& out) {
     for_rows(spans, lanes, width, out, [&](const RowOf& row) HWY_ATTR {
@@ -305,7 +312,8 @@ void measure_areas(GridSpans spans, size_t lanes, const Operand& P, const Operan
     });
 }
 
-/// Unit normals of a row, zero where the differences are parallel but for rounding.
+/// Unit normals of a row, zero where the differences are parallel but for rounding. In doubles: differences
+/// of neighbouring floats have few digits, and their products fewer.
 HWY_INLINE void row_normals(const RowOf& row, const Operand& P, Row3& out) {
     Row3 u, v;
     row.differences(Axis::U, P, u);
@@ -368,7 +376,8 @@ void find_normals(GridSpans spans, size_t lanes, const Operand& P, const Operand
     });
 }
 
-/// |step along u| + |step along v|: how far x goes over one micropolygon.
+/// |step along u| + |step along v|: how far x goes over one micropolygon. The sum, not the larger: a filter
+/// that is too wide blurs, one that is too narrow aliases.
 void find_filter_widths(GridSpans spans, size_t lanes, const Operand& x, const Operand& out) {
     for_rows(spans, lanes, 1, out, [&](const RowOf& row) HWY_ATTR {
         Row u, v;

@@ -1,5 +1,5 @@
 /// Differences between the vertices of grids, and what the shading language makes of them (RISpec 3.2,
-/// sections 15.1 and 15.3). A batch's lanes belong to the grids of `spans`, one after the other; lanes past
+/// sections 15.1 and 15.2). A batch's lanes belong to the grids of `spans`, one after the other; lanes past
 /// the last get the last vertex's results. A difference is that to the neighbours on both sides over two
 /// steps, or one-sided at a grid's border over one; it is 0 for uniform values and across grids of one row.
 ///
@@ -45,6 +45,7 @@ void filter_widths(GridSpans spans, size_t lanes, const Operand& x, const Operan
 /// for an empty one. Lane by lane; outputs may be inputs.
 void filter_step(size_t lanes, const Operand& edge, const Operand& x, const Operand& width, float scale,
                  const Operand& out);
+/// The same for the interval from the lesser of x and x2 to the greater: filterstep() with four arguments.
 void filter_step_between(size_t lanes, const Operand& edge, const Operand& x, const Operand& x2,
                          const Operand& out);
 

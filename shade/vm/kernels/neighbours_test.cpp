@@ -10,6 +10,11 @@
 namespace trapeze::vm {
 namespace {
 
+using testing::for_each_target;
+using testing::KernelNumbers;
+using testing::Register;
+using testing::same_float;
+
 /// Several grids side by side, whose lanes are u and v at their vertices.
 class SmallBatch {
   public:
@@ -63,7 +68,7 @@ double difference(const std::function<double(int)>& value, int i, int last) {
 
 TEST(Neighbours, DerivativesAreDifferencesOverTheParameters) {
     const SmallBatch batch;
-    Numbers numbers;
+    KernelNumbers numbers;
     Register u = batch.make(1, [](float x, float, int) { return x * 0.25f + 3; });
     Register v = batch.make(1, [](float, float y, int) { return 1 - y * 2; });
     for (int width : {1, 3}) {
@@ -277,7 +282,7 @@ TEST(Neighbours, FilteredStepsAreSharesOfIntervals) {
 
 TEST(Neighbours, GiveTheSameBitsOnAllTargets) {
     const SmallBatch batch;
-    Numbers numbers;
+    KernelNumbers numbers;
     Register P = batch.make(3, [&](float, float, int) { return numbers.moderate(); });
     Register u = batch.make(1, [&](float, float, int) { return numbers.moderate(); });
     Register v = batch.make(1, [&](float, float, int) { return numbers.moderate(); });

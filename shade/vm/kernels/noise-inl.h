@@ -88,6 +88,8 @@ HWY_INLINE V gradient(VU h, const V (&x)[1]) {
     const VU size = hn::Add(hn::And(hn::ShiftRight<28>(h), hn::Set(DU(), 7)), hn::Set(DU(), 1));
     return flip(hn::Mul(hn::ConvertTo(D(), hn::BitCast(DI(), size)), x[0]), h);
 }
+
+/// One bit chooses which axis counts twice, two more the signs.
 HWY_INLINE V gradient(VU h, const V (&x)[2]) {
     const VU swap = hn::ShiftLeft<2>(h);
     const V once = choose(swap, x[1], x[0]), twice = choose(swap, x[0], x[1]);
@@ -100,6 +102,9 @@ HWY_INLINE V gradient(VU h, const V (&x)[3]) {
     const V b = choose(hn::Or(h, h1), choose(hn::AndNot(h3, hn::And(h, h1)), x[0], x[2]), x[1]);
     return hn::Add(flip(a, h3), flip(b, h2));
 }
+
+/// Two bits choose the axis that is left out, three the signs of the others: the 32 edges' midpoints of a
+/// hypercube.
 HWY_INLINE V gradient(VU h, const V (&x)[4]) {
     const VU h1 = hn::ShiftLeft<1>(h);
     const V a = choose(hn::And(h, h1), x[1], x[0]);

@@ -119,6 +119,7 @@ Kernel find_noise(int dimensions) {
     }
 }
 
+/// As find_noise(), for cells.
 template <int width>
 Kernel find_cell_noise(int dimensions) {
     switch (dimensions) {

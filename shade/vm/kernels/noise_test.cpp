@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "core/math.h"
-#include "shade/vm/kernels/exact_noise.h"
+#include "shade/vm/kernels/exact_noise_harness.h"
 #include "shade/vm/kernels/kernel_harness.h"
 #include "shade/vm/kernels/random.h"
 
@@ -13,6 +13,12 @@ namespace trapeze::vm {
 namespace {
 
 using rsl::Op;
+using testing::check_kernel;
+using testing::for_each_target;
+using testing::KernelCheck;
+using testing::KernelNumbers;
+using testing::Register;
+using testing::same_float;
 using Inputs = std::vector<std::vector<float>>;
 
 std::vector<int> input_widths(int dimensions) {
@@ -34,7 +40,7 @@ std::vector<int> widths_of(int output, int dimensions, bool periodic) {
 }
 
 TEST(Noise, IsASumOverCorners) {
-    Numbers numbers;
+    KernelNumbers numbers;
     const auto coordinate = [&] {
         return numbers.below(5) ? numbers.between(-20, 20) : float(numbers.below(9) - 4);
     };
@@ -49,7 +55,7 @@ TEST(Noise, IsASumOverCorners) {
 }
 
 TEST(Noise, MayBePeriodic) {
-    Numbers numbers;
+    KernelNumbers numbers;
     const auto coordinate = [&] {
         return numbers.below(5) ? numbers.between(-20, 20) : float(numbers.below(9) - 4);
     };
@@ -115,7 +121,7 @@ struct Scattered {
         const std::vector<int> widths = widths_of(output, dimensions, periodic);
         const size_t first_period = 1 + input_widths(dimensions).size();
         std::vector<Operand> operands;
-        Numbers numbers;
+        KernelNumbers numbers;
         for (size_t i = 0; i < widths.size(); ++i) {
             const bool is_period = i >= first_period;
             registers.emplace_back(widths[i], is_period, is_period ? kLanes : kPoints);
@@ -229,7 +235,7 @@ TEST(CellNoise, IsUniformAndConstantInEachCell) {
 }
 
 TEST(CellNoise, HashesItsCell) {
-    Numbers numbers;
+    KernelNumbers numbers;
     for (int dimensions = 1; dimensions <= 4; ++dimensions)
         for (int output : {1, 3}) {
             const auto exact = [&](const Inputs& in, double* out) {
@@ -248,7 +254,7 @@ TEST(CellNoise, HashesItsCell) {
 }
 
 TEST(Noise, OfAnyNumbersIsInRange) {
-    Numbers numbers;
+    KernelNumbers numbers;
     for (int dimensions = 1; dimensions <= 4; ++dimensions) {
         const std::vector<int> widths = widths_of(3, dimensions, true);
         std::vector<Register> registers;

@@ -51,7 +51,8 @@ struct Input {
     size_t lane_mask, stride;
 };
 
-/// A uniform output is one of kLanes lanes.
+/// A uniform output is one of kLanes lanes. It is written whole, at consecutive lanes, and so has no lane
+/// mask.
 struct Output {
     HWY_INLINE explicit Output(const Operand& o) : data(o.data), stride(o.stride) {}
     HWY_INLINE V get(size_t i, int k = 0) const {
@@ -143,6 +144,8 @@ HWY_INLINE V3 subtract(const V3& a, const V3& b) {
 HWY_INLINE V3 scale(const V3& a, V s) {
     return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
 }
+
+/// Right-handed in its formula; space itself is left-handed, as RISpec's camera space is.
 HWY_INLINE V3 cross(const V3& a, const V3& b) {
     return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
             hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};

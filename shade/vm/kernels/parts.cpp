@@ -14,7 +14,8 @@ namespace {
 
 using rsl::Op;
 
-/// x rounded down, 0 to count - 1; 0 for NaN.
+/// x rounded down, 0 to count - 1; 0 for NaN. Indices out of range are clamped, so that no shader reads or
+/// writes outside its own registers.
 HWY_INLINE VI index_below(V x, int count) {
     return hn::ConvertTo(DI(), at_most(positive(x), set(static_cast<float>(count - 1))));
 }
@@ -125,6 +126,8 @@ void set_element(size_t lanes, Operands o) {
     }
 }
 
+/// Op::Clear: a local array without an initial value starts as zeros whenever its declaration is reached, and
+/// not as what its planes held before.
 template <int width>
 void clear(size_t lanes, Operands o) {
     for (int e = 0; e < o[0].length; ++e)
@@ -139,6 +142,7 @@ Kernel find_clear(std::span<const int> widths) {
     return are(widths, {16}) ? clear<16> : nullptr;
 }
 
+/// Widths are those of the result, the array's elements and the index.
 Kernel find_element(std::span<const int> widths) {
     if (are(widths, {1, 1, 1})) return element<1>;
     if (are(widths, {3, 3, 1})) return element<3>;

@@ -8,6 +8,11 @@ namespace trapeze::vm {
 namespace {
 
 using rsl::Op;
+using testing::check_kernel;
+using testing::for_each_target;
+using testing::KernelNumbers;
+using testing::Register;
+using testing::same_float;
 using Inputs = std::vector<std::vector<float>>;
 
 int index_of(float x, int count) {
@@ -15,7 +20,7 @@ int index_of(float x, int count) {
 }
 
 /// Mostly inside an array of `count`, but also outside, fractional and not a number.
-std::function<float()> indices(Numbers& numbers, float count) {
+std::function<float()> indices(KernelNumbers& numbers, float count) {
     return [&numbers, count] { return numbers.below(3) ? numbers.between(-1, count + 1) : numbers.any(); };
 }
 
@@ -25,7 +30,7 @@ TEST(Parts, AreAssembled) {
                   }});
     std::vector<Register> registers;
     for (int k = 0; k < 17; ++k) registers.emplace_back(k == 0 ? 16 : 1, k % 3 == 1, 48);
-    Numbers numbers;
+    KernelNumbers numbers;
     std::vector<Operand> operands;
     for (Register& r : registers) r.fill([&] { return numbers.any(); }), operands.push_back(r.operand());
     std::vector<int> widths(17, 1);
@@ -40,7 +45,7 @@ TEST(Parts, AreAssembled) {
 }
 
 TEST(Parts, AreTakenOut) {
-    Numbers numbers;
+    KernelNumbers numbers;
     const auto value = [&] { return numbers.any(); };
     check_kernel({Op::Component,
                   {1, 3, 1},
@@ -57,7 +62,7 @@ TEST(Parts, AreTakenOut) {
 /// Runs a kernel that sets a part of operand 0 and checks which part changed.
 void check_set(Op op, int width, const std::function<int(const std::vector<float>&)>& part) {
     constexpr size_t kCount = 64;
-    Numbers numbers;
+    KernelNumbers numbers;
     const int index_count = width == 16 ? 2 : 1;
     for (unsigned varying = 0; varying < 8; ++varying) {
         std::vector<Register> inputs;
@@ -96,7 +101,7 @@ TEST(Parts, AreSet) {
 
 void check_elements(int width, int length, bool array_varies, bool index_varies) {
     constexpr size_t kCount = 64;
-    Numbers numbers;
+    KernelNumbers numbers;
     Register array(width, !array_varies, kCount, length), index(1, !index_varies, kCount);
     Register out(width, false, kCount);
     array.fill([&] { return numbers.any(); });

@@ -60,7 +60,8 @@ struct Knots {
     bool array;
 };
 
-/// Four knots of each lane's segment.
+/// Four knots of each lane's segment. A lane ends up with the knots of the last segment that its place has
+/// reached. No gather: uniform knots are loaded as they lie, and comparing a few is cheaper.
 HWY_INLINE void pick_in_turn(const Knots& knots, int step, int segments, V segment, size_t i, int k,
                              V (&out)[4]) {
     for (int j = 0; j < 4; ++j) out[j] = knots.get(i, j, k);
@@ -120,6 +121,7 @@ void spline(size_t lanes, Operands o) {
     run_spline(kSplineRules[static_cast<size_t>(basis)], width, lanes, o);
 }
 
+/// All pairs of basis and width share run_spline(); these are thin calls of it.
 template <int width>
 Kernel find_of_width(SplineBasis basis) {
     switch (basis) {
@@ -163,6 +165,7 @@ namespace trapeze::vm {
 
 HWY_EXPORT(find_spline);
 
+/// RISpec's names, and the spellings with and without a hyphen that shaders have.
 std::optional<SplineBasis> spline_basis(std::string_view name) {
     constexpr std::pair<std::string_view, SplineBasis> kNames[] = {
         {"catmull-rom", SplineBasis::CatmullRom}, {"catmullrom", SplineBasis::CatmullRom},

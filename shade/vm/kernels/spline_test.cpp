@@ -9,6 +9,11 @@
 namespace trapeze::vm {
 namespace {
 
+using testing::check_kernel;
+using testing::for_each_target;
+using testing::KernelNumbers;
+using testing::Register;
+
 /// By definition of each kind of curve: de Casteljau's construction, blossoms, tangents.
 double curve(SplineBasis basis, const double (&p)[4], double t) {
     const auto mix = [](double a, double b, double at) { return a + (b - a) * at; };
@@ -56,7 +61,7 @@ struct Layout {
 
 void check_spline(SplineBasis basis, const Layout& layout) {
     constexpr size_t kCount = 128;
-    Numbers numbers;
+    KernelNumbers numbers;
     Register out(layout.width, false, kCount), value(1, !layout.value_varies, kCount);
     value.fill([&] {
         return numbers.below(4) ? numbers.between(-0.2f, 1.2f) : static_cast<float>(numbers.below(5)) / 4;
@@ -94,7 +99,7 @@ TEST(Spline, FollowsItsCurve) {
 
 TEST(Spline, GivesTheSameBitsOnAllTargets) {
     std::vector<int> widths(9, 1);
-    Numbers numbers;
+    KernelNumbers numbers;
     check_kernel({rsl::Op::Spline,
                   widths,
                   [](const auto& in, double* out) {

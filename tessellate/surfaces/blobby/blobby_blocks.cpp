@@ -39,6 +39,8 @@ float smallest_extent(const BlobbyLeaf& leaf, const Box3f& support) {
 
 }  // namespace
 
+/// The finest cell is settled first, since all places of the grid are counted in it; then the root grows by
+/// doubling until it holds all bumps.
 BlobbyBlocks::BlobbyBlocks(const BlobbyField& field, const CellSizes& cells, float coarser,
                            double most_operations)
     : field_(field), cells_(cells), coarser_(coarser), most_operations_(most_operations) {
@@ -73,6 +75,8 @@ float BlobbyBlocks::wanted(const Box3f& where, float feature) const {
     return coarser_ * std::min(most, std::max(feature / 8, std::min(most / 3, feature / 6)));
 }
 
+/// In doubles from the origin, and never by adding cells up: a corner that several blocks share has one
+/// place.
 V3f BlobbyBlocks::place(const GridIndex& p) const {
     const double cell = finest_;
     return {static_cast<float>(origin_.x + p.i * cell), static_cast<float>(origin_.y + p.j * cell),
@@ -84,6 +88,8 @@ Box3f BlobbyBlocks::box_of(const GridIndex& at, int level, float margin) const {
     return {place(at) - V3f(margin), place(at + GridIndex{side, side, side}) + V3f(margin)};
 }
 
+/// The background is what the program gives where no bump reaches: without it there would be no telling
+/// inside from outside there.
 bool BlobbyBlocks::find() {
     std::vector<int> leaves;
     for (size_t leaf = 0; leaf < supports_.size(); ++leaf)

@@ -17,6 +17,7 @@ M44f matrix_at(const std::vector<float>& floats, size_t at) {
     return m;
 }
 
+/// In doubles; false for a singular matrix and where the inverse is beyond floats.
 bool invert(const M44f& m, M44f* inverse) {
     M44d d(m);
     if (!(std::abs(d.determinant()) > 0)) return false;
@@ -53,6 +54,7 @@ BlobbyLeaf leaf_of(int code, const std::vector<float>& floats, size_t at) {
     return leaf;
 }
 
+/// Without a ground the leaf is 0 everywhere: the depth map may not have been made yet.
 BlobbyLeaf repelling_plane(const std::vector<float>& floats, size_t at, const GroundHeight& height) {
     BlobbyLeaf leaf;
     leaf.ends = false;
@@ -108,6 +110,8 @@ FieldValue combined(Kind kind, const FieldValue& a, const FieldValue& b) {
 
 }  // namespace
 
+/// The distance from the segment counts, in units of the radius; an ellipsoid is a segment of no length in a
+/// space of its own.
 FieldValue BlobbyLeaf::at(const V3f& p) const {
     if (ground) return ground->at(p);
     if (!ends) return {constant, {0, 0, 0}};
@@ -126,6 +130,8 @@ FieldValue BlobbyLeaf::at(const V3f& p) const {
     return f;
 }
 
+/// Around each end a sphere in leaf space, which the matrix makes an ellipsoid: along an axis it reaches as
+/// far as the column of the matrix is long.
 Box3f BlobbyLeaf::support() const {
     Box3f box;
     if (!ends) return box;
@@ -141,6 +147,7 @@ Box3f BlobbyLeaf::support() const {
     return box;
 }
 
+/// Keeps the place along the segment and the offset from it in radii.
 V3f BlobbyLeaf::carried(const V3f& p, const BlobbyLeaf& other) const {
     if (!ends || !other.ends) return p;
     const V3f local = transform_point(leaf_from_object, p), along = end - begin;
@@ -150,6 +157,7 @@ V3f BlobbyLeaf::carried(const V3f& p, const BlobbyLeaf& other) const {
     return transform_point(other.object_from_leaf, other.begin + (other.end - other.begin) * t + offset);
 }
 
+/// Straight through the list, each instruction's result in its place: no recursion, whatever a file writes.
 FieldValue BlobbyProgram::at(const V3f& p, std::span<const BlobbyLeaf> leaves,
                              std::vector<FieldValue>& results) const {
     if (instructions.empty()) return {};
@@ -170,6 +178,8 @@ FieldValue BlobbyProgram::at(const V3f& p, std::span<const BlobbyLeaf> leaves,
     return results.back();
 }
 
+/// Constant folding with all other leaves at 0: a sum of a thousand leaves becomes one of the few that reach
+/// a block. The order of what is left stays, and so the rounding of its sums.
 BlobbyProgram BlobbyProgram::reduced(std::span<const int> leaves) const {
     BlobbyProgram out;
     // By instruction: its number in `out`, or -1 and a constant.
@@ -219,6 +229,7 @@ BlobbyProgram BlobbyProgram::reduced(std::span<const int> leaves) const {
     return out;
 }
 
+/// Opcodes from 1000 on are leaves, those below operators, as RISpec numbers them.
 BlobbyField blobby_field(const Blobby& blobby, const FindGround& find_ground) {
     BlobbyField field;
     const std::vector<int>& code = blobby.code;

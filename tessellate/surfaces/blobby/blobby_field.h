@@ -16,7 +16,8 @@ namespace trapeze {
 inline constexpr float kBlobbyThreshold = 27.0f / 64;
 
 /// A leaf of a Blobby: a bump round a segment of some space (a capsule there), or round the origin (an
-/// ellipsoid). begin, end and radius are in the leaf's space.
+/// ellipsoid). begin, end and radius are in the leaf's space. Its value is (1 - r^2)^3, r the distance from
+/// the segment over the radius.
 struct BlobbyLeaf {
     bool ends = true;    ///< false: it is everywhere `constant`, or goes by the height above the ground
     float constant = 0;  ///< 0 for a repelling plane whose ground is not known

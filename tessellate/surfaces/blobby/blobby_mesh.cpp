@@ -12,6 +12,7 @@ namespace {
 constexpr int kSize = BlobbyBlock::kSize;
 constexpr GridIndex kAxes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
+/// Exactly on the threshold counts as outside, for all blocks alike.
 bool is_inside(float value) {
     return value > kBlobbyThreshold;
 }
@@ -66,7 +67,7 @@ class Net {
                       float at_to, std::vector<FieldValue>& scratch) const;
     void add_polygons(const std::vector<std::vector<Crossing>>& crossings, BlobbyMesh& mesh) const;
     /// Moves vertices onto the surface, by a cell at most, and gives them normals by the field's gradient.
-    void settle(BlobbyMesh& mesh) const;
+    void move_onto_surface(BlobbyMesh& mesh) const;
 
     const BlobbyField& field_;
     const BlobbyBlocks& blocks_;
@@ -94,6 +95,7 @@ bool Net::cells_round(int block, const GridIndex& edge, int axis, std::array<Cel
     return first == block;
 }
 
+/// Linear between the two corners: the vertex is moved onto the surface later, and only has to begin near it.
 V3f Net::meeting_point(const BlobbyBlock& block, const GridIndex& from, const GridIndex& to, float at_from,
                        float at_to, std::vector<FieldValue>& scratch) const {
     const V3f begin = blocks_.place(from), end = blocks_.place(to);
@@ -111,6 +113,8 @@ V3f Net::meeting_point(const BlobbyBlock& block, const GridIndex& from, const Gr
     return begin + (end - begin) * (std::isfinite(share) ? share : 0.5f);
 }
 
+/// Edges along x, then y, then z, each once: those on a block's border are looked at by all blocks that share
+/// them, and taken by one (cells_round()).
 std::vector<Crossing> Net::crossings(int number) const {
     const BlobbyBlock& block = blocks_.all()[number];
     std::vector<FieldValue> scratch;
@@ -167,7 +171,8 @@ void Net::add_polygons(const std::vector<std::vector<Crossing>>& crossings, Blob
     for (size_t v = 0; v < counts.size(); ++v) mesh.points[v] /= static_cast<float>(counts[v]);
 }
 
-void Net::settle(BlobbyMesh& mesh) const {
+/// Each vertex by its own block's program, which has the leaves that reach it.
+void Net::move_onto_surface(BlobbyMesh& mesh) const {
     mesh.normals.resize(mesh.points.size());
     tbb::parallel_for(tbb::blocked_range<size_t>(0, mesh.points.size(), 256), [&](const auto& range) {
         std::vector<FieldValue> scratch;
@@ -187,7 +192,7 @@ BlobbyMesh Net::mesh() {
     std::vector<std::vector<Crossing>> found(blocks_.all().size());
     tbb::parallel_for(size_t{0}, found.size(), [&](size_t b) { found[b] = crossings(static_cast<int>(b)); });
     add_polygons(found, mesh);
-    settle(mesh);
+    move_onto_surface(mesh);
     for (const BlobbyBlock& block : blocks_.all()) {
         mesh.leaf_lists.push_back(block.leaves);
         mesh.list_cells.push_back(blocks_.cell(block.level));
@@ -197,6 +202,7 @@ BlobbyMesh Net::mesh() {
 
 }  // namespace
 
+/// Never past `reach`: a step through a thin wall would tangle the mesh.
 V3f onto_surface(const BlobbyField& field, const BlobbyProgram& program, V3f p, float reach,
                  std::vector<FieldValue>& scratch) {
     // Newton's steps along the gradient; one that does not come nearer is halved.
@@ -219,6 +225,8 @@ V3f onto_surface(const BlobbyField& field, const BlobbyProgram& program, V3f p, 
     return p;
 }
 
+/// The grid is made coarser, in steps that grow, until it costs no more than it may; where that is by much,
+/// the user is told (blobby_surface.cpp).
 BlobbyMesh blobby_mesh(const BlobbyField& field, const CellSizes& cells, double most_operations) {
     // A coarser grid costs less; one that is larger than all leaves costs almost nothing.
     float coarser = 1;

@@ -21,7 +21,8 @@ constexpr float kCellsWithoutCamera = 64;
 /// What is nearer to the eye than this part of the Blobby's diagonal is made as if it were that far away.
 constexpr float kNearest = 0.01f;
 
-/// The mesh as a polygon surface, with the primitive that it is made for: polygons refer to it.
+/// The mesh as a polygon surface, with the primitive that it is made for: polygons refer to it. All that
+/// Surface asks is handed on to the polygons.
 class BlobbySurface : public TopologySurface<BlobbySurface> {
   public:
     BlobbySurface(Primitive mesh, Diagnostics& diagnostics)
@@ -137,6 +138,7 @@ void for_each_point(const BlobbyField& field, const BlobbyMesh& mesh, Point&& po
     });
 }
 
+/// A variable of class vertex, as if the file had given it.
 Parameter triples(const char* name, ValueType type, const std::vector<V3f>& values) {
     Parameter parameter{name, {StorageClass::Vertex, type, 1}, {}, {}};
     parameter.floats.reserve(values.size() * 3);
@@ -219,6 +221,7 @@ BlobbyField field_at(const Primitive& primitive, size_t key, const FindDepthHeig
     });
 }
 
+/// One loop a polygon: the mesh has no holes.
 PolygonMesh polygons_of(const BlobbyMesh& mesh) {
     PolygonMesh polygons;
     polygons.loops_per_polygon.assign(mesh.sizes.size(), 1);
@@ -236,6 +239,7 @@ bool shows_inside(const Primitive& primitive) {
 
 }  // namespace
 
+/// The mesh is made for the camera, and for this primitive alone (depends_on_view()).
 std::unique_ptr<Surface> make_blobby_surface(const Primitive& primitive, const SurfaceView& view,
                                              Diagnostics& diagnostics) {
     const BlobbyField field = field_at(primitive, 0, view.depth_heights);

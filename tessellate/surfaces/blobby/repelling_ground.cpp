@@ -11,6 +11,7 @@ namespace {
 /// The height that all points at or below the ground count as having; nearer the field would be infinite.
 constexpr float kLeastHeight = 1e-6f;
 
+/// The profile that lets a Blobby bulge above the ground: 1 at r = 1, and 0 with its slope at both ends.
 float bump(float r) {
     if (!(r > 0 && r < 2)) return 0;
     const float s = r * (2 - r);
@@ -23,6 +24,7 @@ float bump_slope(float r) {
     return 6 * s * s * (1 - r);
 }
 
+/// From 0 to 1 without a bend at either end; with it the field fades out at its reach.
 float ease(float r) {
     r = std::clamp(r, 0.0f, 1.0f);
     return r * r * (3 - 2 * r);
@@ -35,6 +37,8 @@ float ease_slope(float r) {
 
 }  // namespace
 
+/// The barrier grows without bound towards the ground and is held at a least height, so that sums with other
+/// fields stay finite.
 float Repulsion::at(float z) const {
     if (z >= reach) return 0;
     z = std::max(z, kLeastHeight);
@@ -48,6 +52,7 @@ float Repulsion::slope(float z) const {
     return held_slope * (1 - ease(z / reach)) - held * ease_slope(z / reach) / reach;
 }
 
+/// Central differences: the ground is known by its depth map only, which has no derivatives.
 FieldValue RepellingGround::at(const V3f& p) const {
     const float z = height(p);
     FieldValue f{repulsion.at(z), {0, 0, 0}};

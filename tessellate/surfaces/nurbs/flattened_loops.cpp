@@ -71,6 +71,8 @@ class Flattener {
 
 }  // namespace
 
+/// The curves of a loop follow each other head to tail (RISpec 5.2); what a file leaves open between them is
+/// closed by a straight line.
 std::vector<std::vector<V2d>> flattened_loops(const NuPatch& patch) {
     std::vector<std::vector<V2d>> loops;
     for (const std::vector<TrimCurve>& loop : patch.trim_loops) {

@@ -4,6 +4,7 @@
 
 namespace trapeze {
 
+/// Empty knot intervals make no span: they only tell how smooth the curve is there.
 KnotSpans::KnotSpans(std::span<const float> knots, int order, float begin, float end)
     : knots_(knots.begin(), knots.end()), order_(order) {
     // Knots order - 1 .. points bound the range where all basis functions add up to 1.
@@ -23,6 +24,7 @@ float KnotSpans::share_of_range(int span, float t) const {
     return static_cast<float>((parameter(span, t) - spans_.front().begin) / total_length());
 }
 
+/// The inverse of share_of_range() across all spans.
 double KnotSpans::spans_before(double share) const {
     const double x = spans_.front().begin + share * total_length();
     const auto after = std::upper_bound(spans_.begin(), spans_.end(), x,

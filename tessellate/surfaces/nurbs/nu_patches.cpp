@@ -74,6 +74,7 @@ class NuPatchSurface : public TopologySurface<NuPatchSurface> {
     std::vector<std::array<V3f, 4>> poles_;  ///< by shape key: where the bottom, right, top, left are a point
 };
 
+/// All of the topology follows from the knots and from which control points coincide at all shape keys.
 NuPatchSurface::NuPatchSurface(const Primitive& primitive, std::vector<ControlPoints> points)
     : primitive_(primitive),
       patch_(std::get<NuPatch>(primitive.shape().topology)),
@@ -189,6 +190,7 @@ V3f to_float(const V3d& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
+/// Sums run in doubles over the points that bear on the span, weights included; the division by w is last.
 void NuPatchSurface::evaluate(int face, std::span<const V2f> uv, int shape_key, SurfaceScratch*,
                               std::span<V3f> P, std::span<V3f> dPdu, std::span<V3f> dPdv) const {
     const ControlPoints& points = points_[shape_key];
@@ -279,6 +281,7 @@ class NuPatchValues : public VariableSource {
     std::span<const V2f> uv_;
 };
 
+/// Texture coordinates go by the share of the range first, as the corners of TextureCoordinates are its ends.
 bool NuPatchSurface::evaluate_variables(int face, std::span<const V2f> uv, SurfaceScratch*,
                                         ShadingGrid& grid) const {
     for (size_t i = 0; i < uv.size(); ++i) {
@@ -323,6 +326,7 @@ Box3f NuPatchSurface::bound(int face, V2f lo, V2f hi, int shape_key) const {
 
 }  // namespace
 
+/// Trimmed patches are meshes of pieces, each of them a part of one face of the whole.
 std::unique_ptr<Surface> make_nu_patch_surface(const Primitive& primitive, Diagnostics& diagnostics) {
     std::vector<ControlPoints> points;
     for (const auto& shape : primitive.shape_keys) {

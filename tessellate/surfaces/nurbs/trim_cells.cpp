@@ -43,6 +43,7 @@ bool is_within(const V2d& p, const std::vector<V2d>& points, const std::vector<i
 
 /// First all loops are added, which finds where they cross the grid's lines and what they do in each cell;
 /// then cells are cut one by one. Crossings are vertices of both cells at a line, so that pieces share them.
+/// Points are moved off the grid's lines first, so that no corner of a cell and no line needs a special case.
 class Cutter {
   public:
     Cutter(int nx, int ny, bool keep_outside)
@@ -129,6 +130,8 @@ void Cutter::cross(const V2d& p, const V2d& q, std::vector<std::pair<double, int
     std::sort(crossings.begin(), crossings.end());
 }
 
+/// Follows the loop once and cuts it into paths at its crossings; a path belongs to the cell in which its
+/// first piece lies. The first path is completed when the loop comes round.
 void Cutter::add_loop(std::vector<V2d> loop) {
     for (V2d& p : loop) p = {off_lines(p.x, nx_), off_lines(p.y, ny_)};
     std::vector<int> path, head;  // the head belongs to the path that ends the loop
@@ -161,12 +164,15 @@ void Cutter::add_loop(std::vector<V2d> loop) {
     end_path(head.back());
 }
 
+/// Each corner of the cells becomes one point at most, shared by the pieces around it, so that their borders
+/// meet.
 int Cutter::corner(int i, int j) {
     const auto [entry, is_new] = corners_.try_emplace({i, j}, 0);
     if (is_new) entry->second = add_point(V2d(i, j));
     return entry->second;
 }
 
+/// By parity: a corner is inside when an odd number of crossings lies to its left in its row.
 bool Cutter::corner_kept(int i, int j) const {
     const std::vector<double>& row = row_crossings_[j];
     const auto before = std::lower_bound(row.begin(), row.end(), static_cast<double>(i)) - row.begin();
@@ -244,6 +250,7 @@ std::vector<std::vector<int>> Cutter::outlines(const std::vector<BorderNode>& no
     return result;
 }
 
+/// Straight corners count as convex; a polygon that winds twice would pass, but outlines do not.
 bool Cutter::is_convex(const std::vector<int>& polygon) const {
     for (size_t k = 0; k < polygon.size(); ++k) {
         const V2d &a = out_.points[polygon[k]], &b = out_.points[polygon[(k + 1) % polygon.size()]],
@@ -253,6 +260,7 @@ bool Cutter::is_convex(const std::vector<int>& polygon) const {
     return true;
 }
 
+/// Faces without area, of loops that run along a line, are left out here.
 void Cutter::emit_face(int i, int j, std::vector<int> polygon) {
     if (!(signed_area(out_.points, polygon) > 0)) return;
     out_.vertices_per_face.push_back(static_cast<int>(polygon.size()));
@@ -260,6 +268,7 @@ void Cutter::emit_face(int i, int j, std::vector<int> polygon) {
     out_.cells.push_back({i, j});
 }
 
+/// Faces of many corners would be cut at their centre into as many pieces as corners; triangles are fewer.
 void Cutter::emit(int i, int j, const std::vector<int>& outline, const std::vector<std::vector<int>>& holes) {
     constexpr size_t kMostCellCorners = 8;
     if (outline.size() < 3) return;
@@ -301,6 +310,7 @@ void Cutter::cut_cell(int i, int j, const CellPaths* paths) {
     for (size_t k = 0; k < pieces.size(); ++k) emit(i, j, pieces[k], holes[k]);
 }
 
+/// Cells without loops are kept or left out whole, by their corners.
 TrimmedCells Cutter::cut() {
     for (std::vector<double>& row : row_crossings_) std::sort(row.begin(), row.end());
     for (auto& [edge, crossings] : edge_crossings_)
@@ -316,6 +326,7 @@ TrimmedCells Cutter::cut() {
 
 }  // namespace
 
+/// Loops of fewer than three points enclose nothing.
 TrimmedCells trim_cells(std::vector<std::vector<V2d>> loops, int nx, int ny, bool keep_outside) {
     Cutter cutter(nx, ny, keep_outside);
     for (std::vector<V2d>& loop : loops)

@@ -95,6 +95,8 @@ class TrimmedPatch : public TopologySurface<TrimmedPatch> {
 
 }  // namespace
 
+/// Pieces are not smaller than the loops need, but at least so small that a bilinear piece of the parameter
+/// plane follows the loop's points.
 std::unique_ptr<Surface> make_trimmed_patch(const NuPatch& patch, std::unique_ptr<Surface> whole) {
     const KnotSpans u(patch.u_knots, patch.u_order, patch.u_begin, patch.u_end);
     const KnotSpans v(patch.v_knots, patch.v_order, patch.v_begin, patch.v_end);

@@ -109,6 +109,7 @@ void extrapolate(float* controls, int size, const bool (&boundary)[4]) {
 
 }  // namespace
 
+/// The library's surface is set up in every case, since it alone knows which form the face has.
 void LimitPatch::set_vertex(const Factory& factory, int mesh_face, std::span<const int> corners) {
     factory.InitVertexSurface(mesh_face, &surface_);
     classify(corners);
@@ -145,6 +146,8 @@ void LimitPatch::classify(std::span<const int> corners) {
     boundary_[kRight] = none(at_high[7], at_high[11], at_high[15]);
 }
 
+/// Points in the order that the form's evaluation wants; for Linear the corners of the mesh face, going
+/// round.
 void LimitPatch::gather(const float* values, int size, std::vector<float>& points) const {
     const auto copy = [&](std::span<const int> indices) {
         points.resize(indices.size() * size);
@@ -179,6 +182,8 @@ void LimitPatch::evaluate(const std::vector<float>& points, int size, const Face
     }
 }
 
+/// Three kinds of parameters, by the shape of the mesh face: each has a chart from the unit square of a
+/// piece.
 void LimitPatch::evaluate_library(const float* points, int size, int stride, const FacePiece& piece,
                                   std::span<const V2f> uv, ValueSink value, ValueSink du,
                                   ValueSink dv) const {

@@ -41,6 +41,7 @@ class LimitPatch {
                   ValueSink value, ValueSink du, ValueSink dv) const;
 
   private:
+    /// How it is evaluated. Bspline and Linear give the same bits for any batch and need no library call.
     enum class Form { Linear, Bspline, Library };
 
     /// Chooses the form from what the library has set up.

@@ -81,6 +81,7 @@ std::optional<int> TagReader::choice(const Tag& tag, int fallback, int last) con
     return std::nullopt;
 }
 
+/// A tag has one sharpness for all that it names, or one for each.
 bool TagReader::checked(const Tag& tag, int count, size_t sharpnesses) const {
     if (tag.floats.size() != 1 && tag.floats.size() != sharpnesses && sharpnesses > 0) {
         warn(tag, "wants 1 or " + std::to_string(sharpnesses) + " floats, has " +
@@ -126,6 +127,7 @@ bool TagReader::read_geometry(const Tag& tag) {
     return true;
 }
 
+/// RISpec 3.2 has the first of them alone; the others are PRMan's.
 bool TagReader::read_option(const Tag& tag) {
     if (tag.name == "interpolateboundary") {
         constexpr SdcOptions::VtxBoundaryInterpolation rules[] = {SdcOptions::VTX_BOUNDARY_NONE,
@@ -197,6 +199,8 @@ namespace OpenSubdiv {
 namespace OPENSUBDIV_VERSION {
 namespace Far {
 
+/// OpenSubdiv calls these specialisations in turn as it builds a refiner: sizes first, then vertices of
+/// faces, tags, and values of face-varying channels.
 template <>
 bool TopologyRefinerFactory<trapeze::RefinerInput>::resizeComponentTopology(
     TopologyRefiner& refiner, trapeze::RefinerInput const& input) {

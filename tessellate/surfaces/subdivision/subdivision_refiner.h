@@ -18,6 +18,7 @@ struct SubdivisionTags {
         int a = 0, b = 0;  ///< vertices
         float sharpness = 0;
     };
+    /// A vertex that stays sharp, and how far.
     struct Corner {
         int vertex = 0;
         float sharpness = 0;

@@ -36,6 +36,8 @@ SubdivisionSurface::SubdivisionSurface(const Primitive& primitive,
                                                whole_size, has_limit);
 }
 
+/// Holes of the mesh have no limit surface; faces that the library cannot be trusted with are drawn as they
+/// stand.
 SubdivisionSurface::FaceKind SubdivisionSurface::kind_of(int mesh_face) const {
     if (!factory_.FaceHasLimitSurface(mesh_face)) return FaceKind::Hole;
     // OpenSubdiv 3.5.0 writes past its arrays for some faces that have both a vertex of a non-manifold fan
@@ -63,6 +65,7 @@ std::unique_ptr<SurfaceScratch> SubdivisionSurface::make_scratch() const {
     return std::make_unique<SubdivisionScratch>();
 }
 
+/// Direct-mapped by the face's number: neighbouring faces have neighbouring numbers in most meshes.
 SubdivisionScratch::Face& SubdivisionSurface::cached_face(SubdivisionScratch& scratch, int mesh_face) const {
     SubdivisionScratch::Face& cached =
         scratch.faces[static_cast<size_t>(mesh_face) % SubdivisionScratch::kFaces];
@@ -77,6 +80,7 @@ SubdivisionScratch::Face& SubdivisionSurface::cached_face(SubdivisionScratch& sc
     return cached;
 }
 
+/// Made when it is first asked for: shaders may look at none of the channels.
 const LimitPatch& SubdivisionSurface::cached_channel(SubdivisionScratch::Face& cached, int channel) const {
     SubdivisionScratch::Face::Channel& entry = cached.channels[channel];
     if (entry.is_set) return entry.patch;

@@ -12,6 +12,7 @@ bool is_face_varying(const Parameter& parameter) {
            parameter.declaration.storage == StorageClass::FaceVertex;
 }
 
+/// s and t of one mesh nearly always have their seams in the same places, and share a channel.
 bool is_texture_coordinate(const Parameter& parameter) {
     return (parameter.name == "s" || parameter.name == "t") && parameter.declaration.floats_per_item() == 1;
 }
@@ -84,6 +85,8 @@ class SubdivisionValues : public VariableSource {
     mutable std::vector<float> points_;
 };
 
+/// All components of a group at once, since the patch's weights are most of the work; the components are then
+/// handed out one by one.
 void SubdivisionValues::evaluate(const void* group, const LimitPatch& patch, const float* values,
                                  int size) const {
     if (evaluated_ == group) return;
@@ -146,6 +149,8 @@ size_t SubdivisionValues::uniform_index(const Parameter& parameter) const {
 
 }  // namespace
 
+/// Texture coordinates of one declaration share a channel, since OpenSubdiv's cost goes by channels; all
+/// others have their own.
 std::vector<FaceVaryingChannel> make_channels(const SubdivisionMesh& mesh, const ParameterList& variables,
                                               bool linear_face_varying) {
     std::vector<FaceVaryingChannel> channels;
@@ -162,6 +167,8 @@ std::vector<FaceVaryingChannel> make_channels(const SubdivisionMesh& mesh, const
     return channels;
 }
 
+/// u and v are the face's own: a subdivision mesh has no parameters of the whole (s and t follow them where
+/// none are given).
 bool SubdivisionSurface::evaluate_variables(int face, std::span<const V2f> uv, SurfaceScratch* scratch,
                                             ShadingGrid& grid) const {
     for (size_t i = 0; i < uv.size(); ++i) {

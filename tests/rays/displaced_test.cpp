@@ -1,0 +1,186 @@
+/// Rays that meet displaced surfaces, next to the closed forms of what these have become.
+#include <gtest/gtest.h>
+
+#include "tests/rays/rays_harness.h"
+
+namespace trapeze::testing {
+namespace {
+
+/// Red is the part of so many rays that is hidden, green what is to be, each pixel within five deviations of
+/// independent rays. Micropolygons lie up to 1e-3 of a ball's radius inside: the area falls by less than
+/// 2e-3.
+void expect_hidden(const Image& image, int samples) {
+    double bias = 0, independent = 0;
+    for (const Pixel& p : pixels(image)) {
+        const double expected = static_cast<double>(p.green), error = static_cast<double>(p.red) - expected;
+        ASSERT_LT(std::abs(error), 5 * std::sqrt(expected * (1 - expected) / samples));
+        independent += expected * (1 - expected) / samples / 4096, bias += error / 4096;
+    }
+    EXPECT_NEAR(bias, 0, 4 * std::sqrt(independent / 4096) + 2e-4);
+}
+
+/// The form factor (r / d)^2 cos(theta) is that of the larger ball.
+TEST(RayDisplaced, OcclusionOfABallIsItsFormFactor) {
+    Case c;
+    // A ball whose radius is blown up from .25 to .5.
+    c.shaders["blow"] =
+        "displacement blow() { vector out = normalize(vector(P - point(0, 0, 3)));"
+        "  P += .25 * out; N = normal(out); }";
+    c.things =
+        "Attribute \"trace\" \"int displacements\" [1] Attribute \"displacementbound\" \"sphere\" [.3] "
+        "ShadingRate .25 Displacement \"blow\" " +
+        sphere("0 0 3", ".25");
+    constexpr int kSamples = 64;
+    const Image image = c.render(
+        "vector m = point(0, 0, 3) - P; float d2 = m . m; float expected = .25 / d2 * (2 / sqrt(d2));"
+        "Ci = color(occlusion(P, normal(0, 0, -1), " +
+        std::to_string(kSamples) + "), expected, 1);");
+    expect_hidden(image, kSamples);
+}
+
+/// What shaders find at a hit is where the ray has met the displaced surface, not where that was before: P is
+/// on the ray, and I leads along it. So it is for what the hit's shader asks in turn.
+TEST(RayDisplaced, HitsAreSeenWhereTheyHaveBeenMet) {
+    for (const std::string tells : {"vtransform(\"world\", I)", "transform(\"world\", P) - from"}) {
+        Case c;
+        c.shaders["lift"] =
+            "displacement lift() { P += vector(0, .3 * xcomp(P), 1); N = calculatenormal(P); }";
+        c.shaders["tells"] = "surface tells() { vector from = point(.2, .1, 5); vector w = " + tells +
+                             "; Ci = color(xcomp(w), ycomp(w), zcomp(w)) / length(w) + 1; Oi = 1; }";
+        c.things =
+            "Attribute \"trace\" \"int displacements\" [1] Attribute \"displacementbound\" \"sphere\" [2] "
+            "Displacement \"lift\" Surface \"tells\" " +
+            wall("2");
+        expect_told(c.render("vector d = normalize(vector(xcomp(P), ycomp(P), -1));"
+                             "color seen = trace(point(.2, .1, 5), d) - 1;"
+                             "Ci = told(comp(seen, 0) + 2 * comp(seen, 1), xcomp(d) + 2 * ycomp(d), 1);"),
+                    1e-5f, 64 * 64);
+    }
+}
+
+/// The penumbra of a disk light behind an edge that a displacement has lifted to where it is looked for: as
+/// in area_lights_test, a disk of radius 3, 100 away, and an edge at z = -10.
+TEST(RayDisplaced, ThePenumbraIsThatOfTheLiftedEdge) {
+    Case c;
+    c.may_say = "ris";
+    c.asker =
+        "AttributeBegin Translate 0 0 -95 Scale 6 6 1 Light \"PxrDiskLight\" \"l\" \"int fixedSampleCount\" [64] "
+        "AttributeEnd ";
+    c.shaders["lift"] = "displacement lift() { P += vector(1, 0, -2); N = calculatenormal(P); }";
+    c.things =
+        "Attribute \"trace\" \"int displacements\" [1] Attribute \"displacementbound\" \"sphere\" [2.5] "
+        "Displacement \"lift\" Patch \"bilinear\" \"P\" [-4 3 -8 -1 3 -8 -4 -3 -8 -1 -3 -8] ";
+    const Image image = c.render(
+        "float t = clamp(-xcomp(P) * 85 / 15 / 3, -1, 1); float shown = (acos(t) - t * sqrt(1 - t * t)) / PI;"
+        "Ci = color(comp(diffuse(normal(0, 0, -1)), 0) * 10009 / 9, shown, 1);");
+    double error = 0;
+    for (const Pixel& p : pixels(image)) {
+        ASSERT_NEAR(p.red, p.green, 0.1f);
+        error += static_cast<double>(p.red - p.green) / 4096;
+    }
+    EXPECT_NEAR(error, 0, 0.003);
+}
+
+/// Moving and displaced at once: the ball goes by while the shutter is open, and hides the mean of its form
+/// factors.
+TEST(RayDisplaced, OcclusionOfABallThatMovesIsItsMeanOverTheShutter) {
+    Case c;
+    c.options = "Shutter 0 1 ";
+    c.asker = "Attribute \"trace\" \"int samplemotion\" [1] ";
+    c.shaders["blow"] =
+        "displacement blow() { vector out = vector(transform(\"object\", P)); P += out; N = normal(out); }";
+    c.things =
+        "Attribute \"trace\" \"int displacements\" [1] Attribute \"displacementbound\" \"sphere\" [.3] "
+        "ShadingRate .25 Displacement \"blow\" MotionBegin [0 1] Translate -.8 .1 3 Translate .8 .1 2.5 MotionEnd "
+        "Sphere .25 -.25 .25 360 ";
+    constexpr int kSamples = 256;
+    const Image image = c.render(
+        "float expected = 0, i; for (i = .5; i < 64; i += 1) {"
+        "  vector m = point(-.8 + 1.6 * i / 64, .1, 3 - .5 * i / 64) - P;"
+        "  expected += .25 / (m . m) * -zcomp(m) / length(m) / 64; }"
+        "Ci = color(occlusion(P, normal(0, 0, -1), " +
+        std::to_string(kSamples) + "), expected, 1);");
+    expect_hidden(image, kSamples);
+}
+
+/// Likewise the lifted edge, which goes 1 to the right.
+TEST(RayDisplaced, ThePenumbraOfALiftedEdgeThatMovesIsItsMeanOverTheShutter) {
+    Case c;
+    c.may_say = "ris";
+    c.options = "Shutter 0 1 ";
+    c.asker =
+        "AttributeBegin Translate 0 0 -95 Scale 6 6 1 Light \"PxrDiskLight\" \"l\" \"int fixedSampleCount\" "
+        "[256] AttributeEnd Attribute \"trace\" \"int samplemotion\" [1] ";
+    c.shaders["lift"] = "displacement lift() { P += vector(1, 0, -2); N = calculatenormal(P); }";
+    c.things =
+        "Attribute \"trace\" \"int displacements\" [1] Attribute \"displacementbound\" \"sphere\" [2.5] "
+        "MotionBegin [0 1] Translate -.5 0 0 Translate .5 0 0 MotionEnd "
+        "Displacement \"lift\" Patch \"bilinear\" \"P\" [-4 3 -8 -1 3 -8 -4 -3 -8 -1 -3 -8] ";
+    expect_moving_penumbra(c);
+}
+
+// Closed things.
+
+/// A cube with creases and a corner that grows, leans, turns and goes aside while the shutter is open, with
+/// bumps of up to .1. All the time it holds a ball of radius .65 about (0, 0, 5): a cube's limit surface is
+/// no nearer than .83 to its middle, nothing is pushed inwards by more than .01, and it goes .05 to either
+/// side.
+std::string bumpy_mesh() {
+    const std::string cube =
+        "SubdivisionMesh \"catmull-clark\" [4 4 4 4 4 4] [0 1 3 2 5 4 6 7 1 0 4 5 2 3 7 6 0 2 6 4 3 1 5 7] "
+        "[\"crease\" \"crease\" \"corner\"] [5 1 3 1 1 1] [0 1 3 2 0 5 7 6 4] [2.5 1.2 2] ";
+    return "Displacement \"bumps\" Attribute \"displacementbound\" \"float sphere\" [.15] "
+           "Attribute \"trace\" \"int displacements\" [1] "
+           "MotionBegin [0 1] Translate -.05 0 5 Translate .05 0 5 MotionEnd "
+           "MotionBegin [0 1] Rotate 0 1 2 3 Rotate 90 1 2 3 MotionEnd MotionBegin [0 1] " +
+           cube + "\"P\" [-1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 1 1 1] " + cube +
+           "\"P\" [-1.7 -1.2 -1.1 1.1 -1.2 -1.1 -1.7 1.2 -1.1 1.1 1.2 -1.1 "
+           "-1.1 -1.2 1.1 1.7 -1.2 1.1 -1.1 1.2 1.1 2.1 1.6 1.5] MotionEnd ";
+}
+
+/// Half a million rays at all times from the ball, half of them nearly along its surface.
+const std::string kFromTheBall =
+    "for (i = 0; i < 32; i += 1) {"
+    "  vector a = way(), b = way(); vector along = a ^ b; point p = o + .6 * pow(random(), 1 / 3) * a;"
+    "  leaks += lost(p, b) + lost(p, along); p = o + .6 * a;"
+    "  leaks += lost(p, along + (random() - .5) / 10 * a) + lost(p, along + (random() - .5) / 100 * a); }";
+/// As many as the shutter opens: from the middle, and from all places up to close to what that finds, into
+/// all directions and nearly along the surface there. The first ones tell how far the finest geometry is.
+const std::string kFromNearTheSurface =
+    "for (i = 0; i < 32; i += 1) {"
+    "  vector a = way(); float far = 1e30; gather(\"\", o, a, 0, 1, \"ray:length\", far, \"bias\", 0) { }"
+    "  if (far > 1e20) leaks += 1; else {"
+    "  vector b = way(); leaks += lost(o + .97 * sqrt(random()) * far * a, b) +"
+    "  lost(o + .97 * far * a, way()) + lost(o + .97 * far * a, b - .99 * (b . a) * a); } }";
+
+/// A million rays with one level of the geometry, and a million with four.
+TEST(RayLeaks, ACreasedMeshThatIsDisplacedAndMovesHasNone) {
+    for (const bool levels : {false, true})
+        for (const bool in_time : {true, false}) {
+            Case c;
+            c.options = "Shutter 0 1 ";
+            // 64 x 64 pixels of a larger picture, for which there are more levels.
+            if (levels)
+                c.options +=
+                    "Option \"trace\" \"int levels\" 4 Format 256 256 1 CropWindow .375 .625 .375 .625 ";
+            if (in_time) c.asker = "Attribute \"trace\" \"int samplemotion\" 1 ";
+            c.asks = levels
+                         ? "Patch \"bilinear\" \"P\" [-.26 .26 5 .26 .26 5 -.26 -.26 5 .26 -.26 5] "
+                         : "Patch \"bilinear\" \"P\" [-1.02 1.02 5 1.02 1.02 5 -1.02 -1.02 5 1.02 -1.02 5] ";
+            c.shaders["bumps"] =
+                "displacement bumps() { P += .2 * (noise(4 * transform(\"object\", P)) - .5) * normalize(N);"
+                "N = calculatenormal(P); }";
+            c.things = bumpy_mesh();
+            c.functions =
+                "vector way() { return normalize(vector(random() - .5, random() - .5, random() - .5)); }"
+                "float lost(point from; vector w) {"
+                "  float far = trace(from, w, \"bias\", 0); return far > 1e20 ? 1 : 0; } ";
+            SCOPED_TRACE(std::string(levels ? "levels " : "") + (in_time ? "in time" : ""));
+            expect_told(c.render("point o = point(0, 0, 5); float leaks = 0; uniform float i;" +
+                                 (in_time ? kFromTheBall : kFromNearTheSurface) + "Ci = told(leaks, 0, 1);"),
+                        0, 64 * 64);
+        }
+}
+
+}  // namespace
+}  // namespace trapeze::testing

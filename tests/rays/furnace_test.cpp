@@ -1,0 +1,205 @@
+/// White furnaces: things of albedo 1 under a sky of 1 are not to be seen. Convex ones at one bounce, others
+/// but for what the depth limit cuts off: what is hit beyond the D bounces that are allowed is black. At
+/// rest, while they move and grow, and blown up by a displacement from things of half their size.
+#include <gtest/gtest.h>
+
+#include "tests/rays/rays_harness.h"
+
+namespace trapeze::testing {
+namespace {
+
+/// How a thing about the point (0, 0, 4) comes to be there, and where it goes while the shutter is open.
+struct FurnacePose {
+    const char* name;
+    const char* to = "0 0 4";
+    double grows = 1;  ///< from this part of its size
+    bool displaced = false;
+    double turns = 0;  ///< degrees
+};
+
+void PrintTo(const FurnacePose& pose, std::ostream* out) {
+    *out << pose.name;
+}
+
+/// A thing in its own space, by its size.
+using Thing = std::function<std::string(double)>;
+
+std::string placed(const FurnacePose& pose, const Thing& thing, const std::string& turned = "") {
+    const double size = pose.displaced ? 0.5 : 1;
+    std::string text = "MotionBegin [0 1] Translate 0 0 4 Translate " + std::string(pose.to) + " MotionEnd ";
+    if (pose.turns != 0)
+        text += "MotionBegin [0 1] Rotate 0 1 2 3 Rotate " + std::to_string(pose.turns) + " 1 2 3 MotionEnd ";
+    text += turned;
+    if (pose.displaced)
+        text +=
+            "Attribute \"displacementbound\" \"sphere\" [1.1] Attribute \"trace\" \"int displacements\" [1] "
+            "Displacement \"blow\" ";
+    if (pose.grows == 1) return text + thing(size);
+    return text + "MotionBegin [0 1] " + thing(pose.grows * size) + thing(size) + "MotionEnd ";
+}
+
+std::string round(const std::string& name, double radius, double from, double to) {
+    return name + " " + std::to_string(radius) + " " + std::to_string(from * radius) + " " +
+           std::to_string(to * radius) + " 360 ";
+}
+std::string furnace_ball(double size) {
+    return round("Sphere", 0.7 * size, -1, 1);
+}
+/// Half of a sphere; the camera looks into it.
+std::string bowl(double size) {
+    return round("Sphere", size, 0, 1);
+}
+/// The corners of a cube of the side 2, of which every other thing takes what it needs.
+std::string corners(double size) {
+    std::string points = "\"P\" [";
+    for (int i = 0; i < 8; ++i)
+        for (int k = 0; k < 3; ++k) points += std::to_string((i >> k & 1 ? 1 : -1) * size) + " ";
+    return points + "] ";
+}
+std::string cube(double size) {
+    return "PointsPolygons [4 4 4 4 4 4] [0 1 3 2 5 4 6 7 1 0 4 5 2 3 7 6 0 2 6 4 3 1 5 7] " +
+           corners(0.4 * size);
+}
+/// Three of its sides, seen from within.
+std::string corner(double size) {
+    return "PointsPolygons [4 4 4] [5 4 6 7 1 0 4 5 3 1 5 7] " + corners(0.6 * size);
+}
+/// Turns a corner towards the camera.
+const std::string kTurned = "Rotate -35.26 1 0 0 Rotate 45 0 1 0 ";
+
+const std::string kOutOfTheFurnaceBall = "normal away = normal(normalize(P - point(0, 0, 4))); ";
+const std::string kInwards = "normal away = normal(normalize(point(0, 0, 4) - P)); ";
+/// Of a corner, seen from wherever.
+const std::string kIntoCorner =
+    "normal n = normalize(N); vector into = vtransform(\"object\", \"current\", vector(-1, 1, -1));"
+    "normal away = n . into > 0 ? n : -n; ";
+const std::string kFacing = "normal away = faceforward(normalize(N), I); ";
+
+/// What misses adds the sky, the first time by 16 rays, then by one.
+const std::string kWhite =
+    "color k = 0, sum = 0; uniform float rays = raydepth() == 0 ? 16 : 1;"
+    "gather(\"illuminance\", P, away, PI / 2, rays, \"distribution\", \"cosine\", \"surface:Ci\", k)"
+    "  sum += k;"
+    "else sum += 1; Ci = sum / rays;";
+
+Case furnace(const std::string& thing, int depth) {
+    Case c;
+    c.shaders["blow"] =
+        "displacement blow() { P = transform(\"object\", \"current\", 2 * transform(\"object\", P));"
+        "  N = calculatenormal(P); }";
+    c.options = "Shutter 0 1 ";
+    c.asker = kSeen +
+              "Attribute \"trace\" \"int samplemotion\" 1 Attribute \"trace\" \"int maxdiffusedepth\" [" +
+              std::to_string(depth) + "] ";
+    c.asks = "AttributeBegin " + thing + " AttributeEnd ";
+    return c;
+}
+
+/// The mean of what a thing sends, where it sees itself and the sky; and of how many pixels.
+struct Sent {
+    double mean = 0, pixels = 0;
+};
+
+Sent white(const std::string& thing, const std::string& away, int depth) {
+    const Image image = furnace(thing, depth).render(away + kWhite);
+    Sent sent;
+    for (const Pixel& p : pixels(image)) sent.pixels += p.alpha > 0;
+    for (const Pixel& p : pixels(image)) EXPECT_LE(p.red, 1 + 1e-5f);
+    sent.mean = mean_red(image);
+    return sent;
+}
+
+class RayFurnace : public ::testing::TestWithParam<FurnacePose> {};
+
+/// All rays miss, so that there is no noise.
+TEST_P(RayFurnace, ConvexThingsAreNotToBeSeenAtOneBounce) {
+    const std::pair<Thing, std::string> things[] = {{furnace_ball, kOutOfTheFurnaceBall}, {cube, kFacing}};
+    for (const auto& [thing, away] : things) {
+        int seen = 0;
+        for (const Pixel& p : pixels(furnace(placed(GetParam(), thing, kTurned), 1).render(away + kWhite))) {
+            seen += p.alpha > 0;
+            ASSERT_EQ(p.red, p.alpha);
+        }
+        EXPECT_GT(seen, 400);
+    }
+}
+
+/// Lights shine on surfaces as these lie at shutter open: not on what turns.
+class RayFurnaceOfALight : public ::testing::TestWithParam<FurnacePose> {};
+
+/// A white dome as a light, whose samples cast shadows. Most of them follow the cosine: they count 1.23 at
+/// most, an eighth is behind the surface, and independent ones have a deviation of 0.45. So 64 have 0.06, and
+/// 800 points 2e-3; strata help.
+TEST_P(RayFurnaceOfALight, ConvexThingsAreNotToBeSeen) {
+    Case c = furnace(placed(GetParam(), furnace_ball), 1);
+    c.may_say = "ris";
+    c.asker += "AttributeBegin Light \"PxrDomeLight\" \"l\" \"int fixedSampleCount\" [64] AttributeEnd ";
+    const Image image = c.render("Ci = diffuse(faceforward(normalize(N), point(0, 0, 4) - P));");
+    for (const Pixel& p : pixels(image)) ASSERT_NEAR(p.red, p.alpha, 0.12);
+    EXPECT_NEAR(mean_red(image), 1, 2e-3);
+}
+
+/// In a bowl that is half of a sphere every point sees as much of the bowl as every other one: its share of
+/// the sphere's area, 1/2. So after D bounces 2^-(D + 1) of the light is on its way.
+TEST_P(RayFurnace, ABowlLosesHalfAtEachBounce) {
+    for (const int depth : {1, 2, 3, 5}) {
+        const double left = std::pow(0.5, depth + 1);
+        const Sent sent = white(placed(GetParam(), bowl), kInwards, depth);
+        EXPECT_GT(sent.pixels, 2000);
+        // 16 rays a pixel, each of which is 0 or 1: twice four deviations, since rays of pixels beside each
+        // other are not wholly independent.
+        const double deviation = std::sqrt(left * (1 - left) / (sent.pixels * 16));
+        EXPECT_NEAR(sent.mean, 1 - left, 8 * deviation + 1e-3) << depth;
+    }
+}
+
+/// A corner of three squares. Of no point more is hidden than `most`, which is measured: After D
+/// bounces at most that to the power of D + 1 is on its way.
+TEST_P(RayFurnace, ACornerLosesNoMoreThanItHides) {
+    const std::string thing = placed(GetParam(), corner, kTurned);
+    double most = 0, mean = 0, seen = 0;
+    for (const Pixel& p : pixels(furnace(thing, 1).render(kIntoCorner + "Ci = occlusion(P, away, 256);")))
+        if (p.alpha > 0)
+            most = std::max(most, static_cast<double>(p.red)), mean += static_cast<double>(p.red), ++seen;
+    mean /= seen;
+    EXPECT_GT(seen, 1000);
+    EXPECT_GT(mean, 0.1);
+    EXPECT_LT(most, 0.9);
+    for (const int depth : {1, 3, 7}) {
+        const double found = white(thing, kIntoCorner, depth).mean;
+        EXPECT_GE(found, 1 - std::pow(most, depth + 1) - 5e-3) << depth;
+        EXPECT_LE(found, 1 + 1e-5);
+    }
+}
+
+/// A ball over a floor. Of what a point of the floor sees the ball is up to (r / d)^2, and of what the ball
+/// sees up to half is floor; these follow each other.
+TEST_P(RayFurnace, ABallAndItsFloorLoseNoMoreThanTheyHide) {
+    const double part = 0.7 * 0.7 / (1.5 * 1.5);
+    for (const int depth : {1, 3}) {
+        Case c = furnace("Polygon \"P\" [-1.2 1.2 5.5 1.2 1.2 5.5 1.2 -1.2 5.5 -1.2 -1.2 5.5] ", depth);
+        c.shaders["white"] = "surface white() { Oi = 1; " + kOutOfTheFurnaceBall + kWhite + " }";
+        c.things = c.asker + "Surface \"white\" " + placed(GetParam(), furnace_ball);
+        const Image image = c.render("normal away = normal(0, 0, -1); " + kWhite);
+        EXPECT_GE(mean_red(image), 1 - std::pow(part / 2, (depth + 1) / 2)) << depth;
+        for (const Pixel& p : pixels(image)) ASSERT_LE(p.red, 1 + 1e-5f);
+    }
+}
+
+std::string name_of(const ::testing::TestParamInfo<FurnacePose>& pose) {
+    return pose.param.name;
+}
+
+const FurnacePose kMoving{"Moving", ".4 -.3 3.5"}, kGrowing{"Growing", "0 0 4", .7},
+    kTurning{"Turning", "0 0 4", 1, false, 60}, kDisplaced{"Displaced", "0 0 4", 1, true},
+    kBoth{"DisplacedAndMoving", ".4 -.3 3.5", 1, true};
+INSTANTIATE_TEST_SUITE_P(, RayFurnace,
+                         ::testing::Values(FurnacePose{"AtRest"}, kMoving, kGrowing, kTurning, kDisplaced,
+                                           kBoth),
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(, RayFurnaceOfALight,
+                         ::testing::Values(FurnacePose{"AtRest"}, kMoving, kGrowing, kDisplaced, kBoth),
+                         name_of);
+
+}  // namespace
+}  // namespace trapeze::testing
