@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace trapeze {
 
@@ -31,6 +32,22 @@ void boxes_of_placed(const Grid& grid, float time01, uint32_t first_id, SahItem*
 }
 
 }  // namespace
+
+float read_vertices(const Grid& grid, int key, V3f* vertices) {
+    const KeyVertices at_key(grid, key);
+    float largest = 0;
+    for (int j = 0; j <= grid.shape.nv; ++j)
+        for (int i = 0; i <= grid.shape.nu; ++i, ++vertices) {
+            const V3f p = *vertices = at_key[grid.shape.tiled_index(i, j)];
+            for (int k = 0; k < 3; ++k) {
+                const float size = std::abs(p[k]);
+                // Negated, so that a NaN is as little to be bounded as what is too large.
+                if (!(size <= kBoundableCoordinate)) largest = std::numeric_limits<float>::infinity();
+                largest = std::max(largest, size);
+            }
+        }
+    return largest;
+}
 
 void boxes_of_grid(const Grid& grid, const Frame& frame, float time01, uint32_t first_id, SahItem* items) {
     boxes_of_placed(grid, time01, first_id, items, [&](const V3f& p) { return frame.from_space(p); });

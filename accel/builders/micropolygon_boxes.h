@@ -24,6 +24,10 @@ void for_each_box(const GridShape& shape, const V3f* vertices, const Use& use) {
         }
 }
 
+/// Reads the vertices of a grid at one of its keys, row by row; there is room for kMaxGridVertices. Returns
+/// their largest coordinate; infinity where one is too large to be bounded, or no number.
+float read_vertices(const Grid& grid, int key, V3f* vertices);
+
 /// The micropolygon that comes as number i of a grid's in the order of rows.
 inline MicropolygonId micropolygon_of_grid(size_t grid, const GridShape& shape, int i) {
     return {static_cast<uint32_t>(grid), static_cast<uint8_t>(i % shape.nu),

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "accel/builders/grid_summary.h"
 #include "accel/builders/micropolygon_boxes.h"
 #include "core/hyper_trapezoid.h"
 
@@ -24,17 +23,7 @@ ShutterExtent boxes_of_shutter(const Grid& grid, KeyBox* boxes) {
     std::fill_n(boxes, grid.shape.micropolygon_count(), empty_box());
     V3f vertices[kMaxGridVertices];
     for (int key = 0; key < grid.key_count; ++key) {
-        for (int j = 0; j <= grid.shape.nv; ++j)
-            for (int i = 0; i <= grid.shape.nu; ++i) {
-                const V3f p = vertex_of_key(grid, key, i, j);
-                vertices[grid.shape.row_index(i, j)] = p;
-                for (int k = 0; k < 3; ++k) {
-                    // A NaN is as little to be bounded as what is too large.
-                    if (!(std::abs(p[k]) <= kBoundableCoordinate))
-                        extent.absolute_max = std::numeric_limits<float>::infinity();
-                    extent.absolute_max = std::max(extent.absolute_max, std::abs(p[k]));
-                }
-            }
+        extent.absolute_max = std::max(extent.absolute_max, read_vertices(grid, key, vertices));
         for_each_box(grid.shape, vertices, [&](int i, const Box3f& pose) {
             const V3f size = pose.max - pose.min;
             extent.quad_extent = std::max({extent.quad_extent, size.x, size.y, size.z});

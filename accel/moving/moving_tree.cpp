@@ -14,7 +14,6 @@
 #include "accel/builders/sah_topology.h"
 #include "accel/moving/key_boxes.h"
 #include "accel/moving/linear_topology.h"
-#include "accel/moving/swept_boxes.h"
 
 namespace trapeze {
 namespace {
@@ -235,7 +234,7 @@ void MovingTree::bound_leaf(const Sources& sources, size_t at, LeafBoxes& boxes)
         const MicropolygonId& id = micropolygons_[r] = sources.boxes.id(PartId::index(reference));
         take_extremes(whole, node);
         std::span<const Box3f> there = whole;
-        if (!std::isfinite(node.absolute_max)) {  // its rounding makes any box infinite
+        if (!std::isfinite(whole[0].min.x)) {  // its rounding makes any box infinite
             of_part[0] = Box3f(V3f(0), V3f(0));
             there = std::span(of_part).first(1);
         } else if (PartId::is_part(reference)) {

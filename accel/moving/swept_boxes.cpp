@@ -13,20 +13,6 @@
 namespace trapeze {
 namespace {
 
-/// Reads the vertices of a grid at a key, row by row; returns their largest coordinate.
-float read_vertices(const Grid& grid, int key, std::array<V3f, kMaxGridVertices>& vertices) {
-    const KeyVertices at_key(grid, key);
-    float largest = 0;
-    size_t n = 0;
-    for (int j = 0; j <= grid.shape.nv; ++j)
-        for (int i = 0; i <= grid.shape.nu; ++i, ++n) {
-            const V3f p = at_key[grid.shape.tiled_index(i, j)];
-            vertices[n] = p;
-            for (int k = 0; k < 3; ++k) largest = std::max(largest, std::abs(p[k]));
-        }
-    return largest;
-}
-
 Box3f infinite_box() {
     const V3f infinity(std::numeric_limits<float>::infinity());
     return {-infinity, infinity};
@@ -79,7 +65,7 @@ SweptBoxes::SweptBoxes(const Grids& grids, const std::vector<GridSummary>& summa
         const Grid& grid = grids.grids[g];
         std::array<V3f, kMaxGridVertices> vertices;
         for (int key = 0; key < grid.key_count; ++key) {
-            read_vertices(grid, key, vertices);
+            read_vertices(grid, key, vertices.data());
             for_each_box(grid.shape, vertices.data(), [&](int i, const Box3f& box) {
                 boxes_.set(first_box_of_grid_[g] + static_cast<size_t>(i * grid.key_count + key),
                            grown_for_rounding(box));
@@ -96,13 +82,13 @@ SweptBoxes::SweptBoxes(const Grids& grids) {
         std::array<V3f, kMaxGridVertices> vertices;
         float largest = 0;
         for (int key = 0; key < grid.key_count; ++key) {
-            largest = std::max(largest, read_vertices(grid, key, vertices));
+            largest = std::max(largest, read_vertices(grid, key, vertices.data()));
             for_each_box(grid.shape, vertices.data(), [&](int i, const Box3f& box) {
                 boxes_.set(first + static_cast<size_t>(i * grid.key_count + key), box);
             });
         }
         // One coordinate too large takes the bounds of the whole grid.
-        if (largest <= kBoundableCoordinate) return;
+        if (std::isfinite(largest)) return;
         const auto count = static_cast<size_t>(grid.shape.micropolygon_count() * grid.key_count);
         for (size_t i = 0; i < count; ++i) boxes_.set(first + i, infinite_box());
     });
