@@ -375,15 +375,17 @@ TEST_P(Agreement, TheTreesOfOtherPapersFindWhatBruteForceFinds) {
     for (const std::string tree :
          {"mbkd", "mbkd,duplicates=64,leaf=4,mailbox=off", "mbkd,duplicates=2,plane=0,ray_sort=off",
           "mbkd,plane=1,weight=whole", "mbkd,guests=return", "gs", "gs,order=given", "dynamic", "loose",
-          "loose,place=lowest,levels=9", "loose,skip=off,levels=12"})
+          "loose,place=lowest,levels=9", "loose,skip=off,levels=12", "twolevel"})
         EXPECT_EQ(differing_samples(resolve(scene(), "raytrace:tree=" + tree), truth), 0u) << tree;
 }
 
 TEST_P(Agreement, UpdatedTreesFindWhatBruteForceFinds) {
     const auto truth = resolve(scene(), "bruteforce");
     const GridMaker before = frame_before(scene().maker);
-    for (const std::string tree : {"refit", "dynamic", "dynamic,thinning=1.1", "dynamic,reinsert=root",
-                                   "loose", "loose,place=lowest"}) {
+    for (const std::string tree :
+         {"refit", "msbvh,refit=on,bundle=off", "msbvh,clip=box,budget=8,refit=on", "lbvh,refit=on",
+          "dynamic", "dynamic,thinning=1.1", "dynamic,reinsert=root", "dynamic,reinsert=rebuilt", "loose",
+          "loose,place=lowest", "twolevel"}) {
         std::string error;
         const auto sampler = choose_sampler("raytrace:tree=" + tree, "", &error);
         ASSERT_TRUE(sampler) << error;

@@ -34,9 +34,10 @@ class Visibility {
     /// For reports; asked once, after preparation.
     virtual BuildStats build_stats() const { return {}; }
 
-    /// Takes the grids of the next frame of a sequence in place of those that it was prepared for, and
-    /// changes what it has prepared to fit them. `changed`: the grids, by number, in which they differ from
-    /// those before; null: any may. False, with nothing changed, where that is not its way: prepare anew.
+    /// Takes the grids of the next frame of a sequence in place of those that it was prepared for, which must
+    /// still be there, and changes what it has prepared to fit them. `changed`: the grids, by number, in
+    /// which they differ from those before; null: any may. False, with nothing changed, where that is not its
+    /// way: prepare anew.
     virtual bool update(const Grids& /*grids*/, const std::vector<uint32_t>* /*changed*/ = nullptr) {
         return false;
     }

@@ -4,6 +4,7 @@
 
 #include "accel/dynamic/insertion_tree.h"
 #include "accel/dynamic/loose_tree.h"
+#include "accel/dynamic/two_level_tree.h"
 #include "accel/moving_harness.h"
 
 namespace trapeze {
@@ -67,7 +68,8 @@ TEST(InsertionTree, SeesEveryFrameAsItIs) {
     for (const int passes : {0, 2})
         for (const float thinning : {0.f, 1.1f, 2.f})
             for (const auto order : {InsertionOptions::Order::Shuffled, InsertionOptions::Order::Given})
-                for (const auto reinsertion : {Reinsertion::Ancestor, Reinsertion::Root})
+                for (const auto reinsertion :
+                     {Reinsertion::Ancestor, Reinsertion::Root, Reinsertion::Rebuilt})
                     expect_every_frame_right(InsertionTree({passes, thinning, order, reinsertion}));
 }
 
@@ -78,11 +80,17 @@ TEST(LooseTree, SeesEveryFrameAsItIs) {
                 expect_every_frame_right(LooseTree({levels, by_size, skip}));
 }
 
+TEST(TwoLevelTree, SeesEveryFrameAsItIs) {
+    expect_every_frame_right(TwoLevelTree());
+}
+
 TEST(InsertionTree, StaysATreeWhateverMoves) {
-    for (const float thinning : {0.f, 1.1f, 1.5f}) {
-        InsertionTree tree({.passes = 1,
-                            .thinning = thinning,
-                            .reinsertion = thinning == 1.1f ? Reinsertion::Root : Reinsertion::Ancestor});
+    for (const auto& [thinning, reinsertion] : {std::pair{0.f, Reinsertion::Ancestor},
+                                                {1.1f, Reinsertion::Root},
+                                                {1.5f, Reinsertion::Ancestor},
+                                                {0.f, Reinsertion::Rebuilt},
+                                                {1.1f, Reinsertion::Rebuilt}}) {
+        InsertionTree tree({.passes = 1, .thinning = thinning, .reinsertion = reinsertion});
         uint64_t dissolved = 0;
         for (int frame = 0; frame < 20; ++frame) {
             const GridMaker maker = drifting_frame(frame);
@@ -92,9 +100,13 @@ TEST(InsertionTree, StaysATreeWhateverMoves) {
                 tree.update(maker.grids());
             ASSERT_EQ(tree.contradiction(), "") << frame;
             EXPECT_EQ(tree.moved(), frame == 0 ? 0u : 400u);
+            const bool rebuilds = reinsertion == Reinsertion::Rebuilt && frame > 0;
+            EXPECT_EQ(tree.rebuilt() >= 400, rebuilds);
+            EXPECT_LE(tree.rebuilt(), rebuilds ? 600u : 0u);
             dissolved += tree.dissolved();
         }
-        EXPECT_EQ(dissolved > 0, thinning > 0) << thinning;
+        // Nodes that are built anew in each frame have no time to become thin.
+        EXPECT_EQ(dissolved > 0, thinning > 0 && reinsertion != Reinsertion::Rebuilt) << thinning;
     }
 }
 
@@ -131,6 +143,58 @@ TEST(InsertionTree, LooksAtNothingButWhatItIsToldHasMoved) {
     told.build(first.grids());
     told.update(endless.grids(), changed);
     EXPECT_EQ(testing::differing_rays(endless, told, 200, 0), 0);
+}
+
+/// A frame of quads in a wall, of which every tenth stands out by some way.
+GridMaker wall_frame(float moved_by) {
+    GridMaker maker;
+    for (int n = 0; n < 500; ++n)
+        maker.add(1, 1, 1, [n, moved_by](int i, int j, float) {
+            const float by = n % 10 == 3 ? moved_by : 0;
+            return V3f(.2f * (static_cast<float>(n % 25) + .9f * static_cast<float>(i)) - 2.5f,
+                       .25f * (static_cast<float>(n / 25) + .9f * static_cast<float>(j)) - 2.5f, by);
+        });
+    return maker;
+}
+
+TEST(InsertionTree, BuildsAnewBelowWhatHasMovedAlone) {
+    // Two walls far from each other, of which something moves in one.
+    const auto walls = [](float moved_by) {
+        GridMaker maker;
+        for (const float x : {-20.f, 20.f})
+            for (int n = 0; n < 300; ++n)
+                maker.add(1, 1, 1, [=](int i, int j, float) {
+                    const float by = x > 0 && n % 30 == 0 ? moved_by : 0;
+                    return V3f(x + .2f * static_cast<float>(n % 15 + i),
+                               .2f * static_cast<float>(n / 15 + j) + by, 0);
+                });
+        return maker;
+    };
+    const GridMaker first = walls(0), second = walls(.1f);
+    InsertionTree tree({.passes = 1, .reinsertion = Reinsertion::Rebuilt});
+    tree.build(first.grids());
+    tree.update(second.grids());
+    EXPECT_EQ(tree.contradiction(), "");
+    EXPECT_EQ(tree.moved(), 10u);
+    EXPECT_GT(tree.rebuilt(), 10u);
+    EXPECT_LE(tree.rebuilt(), 300u);
+    EXPECT_EQ(testing::differing_rays(second, tree, 300, 0), 0);
+}
+
+TEST(TwoLevelTree, KeepsWhatHasNotMoved) {
+    const GridMaker first = wall_frame(0), second = wall_frame(.5f), third = wall_frame(1);
+    std::vector<uint32_t> changed;
+    for (uint32_t n = 3; n < 500; n += 10) changed.push_back(n);
+    TwoLevelTree told, untold;
+    told.build(first.grids()), untold.build(first.grids());
+    EXPECT_EQ(told.moving(), 0u);
+    for (const GridMaker* frame : {&second, &third, &third, &first}) {
+        told.update(frame->grids(), changed), untold.update(frame->grids());
+        EXPECT_EQ(told.moving(), 50u);
+        EXPECT_EQ(untold.moving(), 50u);
+        EXPECT_EQ(testing::differing_rays(*frame, told, 300, 20), 0);
+        EXPECT_EQ(testing::differing_rays(*frame, untold, 300, 20), 0);
+    }
 }
 
 TEST(InsertionTree, OfAFrameAsItWasMovesNothing) {
@@ -192,7 +256,7 @@ TEST(LooseTree, KeepsObjectsByTheirSize) {
     for (const KeyBox& box : objects.boxes) scene = joined(scene, box);
     std::array<size_t, 5> at_level{};
     for (size_t object = 0; object < objects.boxes.size(); ++object) {
-        uint32_t node = tree.node_of(object);
+        uint32_t node = tree.nodes().node_of(object);
         int level = 0;
         for (uint32_t at = node; at > 0; at = (at - 1) / 2) ++level;
         ASSERT_EQ(level % 3, 0);
@@ -212,7 +276,7 @@ TEST(LooseTree, KeepsObjectsByTheirSize) {
             EXPECT_GE(box.low[k], voxel.low[k] - half);
             EXPECT_LE(box.high[k], voxel.high[k] + half);
         }
-        EXPECT_TRUE(holds(tree.box_of(tree.node_of(object)), box));
+        EXPECT_TRUE(holds(tree.nodes().box_of(tree.nodes().node_of(object)), box));
     }
     EXPECT_GT(at_level[2], 50u);
     EXPECT_GT(at_level[3], 50u);

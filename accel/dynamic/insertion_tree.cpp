@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
+#include "accel/dynamic/box_tree.h"
 #include "core/random.h"
 
 namespace trapeze {
@@ -28,7 +30,7 @@ void InsertionTree::insert_all() {
             insert(object, root_);
         }
     inserting_all_ = false;
-    moved_ = dissolved_ = 0;
+    moved_ = dissolved_ = rebuilt_ = 0;
     // Nodes were made when little was below them: thinning is measured from the complete tree.
     for (size_t node = count; node < nodes_.size(); ++node)
         nodes_[node].first_quality = quality(nodes_[node]);
@@ -63,17 +65,23 @@ void InsertionTree::update(const Grids& grids) {
         insert_all();
         return;
     }
-    moved_ = dissolved_ = 0;
+    moved_ = 0;
     for (uint32_t object = 0; object < count; ++object) move_if_changed(object);
-    dissolve_thinned();
+    finish_update();
 }
 
 void InsertionTree::update(const Grids& grids, std::span<const uint32_t> changed) {
     if (!objects_.reread(grids, changed)) return update(grids);
-    moved_ = dissolved_ = 0;
+    moved_ = 0;
     for (const uint32_t grid : changed)
         for (uint32_t object = objects_.first_of(grid); object < objects_.first_of(grid + 1); ++object)
             move_if_changed(object);
+    finish_update();
+}
+
+void InsertionTree::finish_update() {
+    dissolved_ = rebuilt_ = 0;
+    rebuild_marked();
     dissolve_thinned();
 }
 
@@ -100,7 +108,10 @@ void InsertionTree::move(uint32_t object, const KeyBox& box) {
     // Above `from` the object has been counted all along; only boxes may be too large there. Read before the
     // insertion, which may put a new node above `from`.
     const uint32_t above_that = nodes_[from].parent;
-    insert(object, from);
+    if (options_.reinsertion == InsertionOptions::Reinsertion::Rebuilt)
+        marked_.push_back(pair_up(object, from));
+    else
+        insert(object, from);
     tighten_above(above_that);
 }
 
@@ -160,9 +171,8 @@ uint32_t InsertionTree::best_sibling(const KeyBox& box, uint32_t from) const {
     return best;
 }
 
-/// Inserts a node, and what is below it, at or below `from`. A free node becomes the parent of it and of its
-/// sibling, in the sibling's place. Nodes from `from` down grow to hold it; those above are the caller's to
-/// bring up to date.
+/// Inserts a node, and what is below it, at or below `from`. Nodes from `from` down grow to hold it; those
+/// above are the caller's to bring up to date.
 void InsertionTree::insert(uint32_t inserted, uint32_t from) {
     const KeyBox box = nodes_[inserted].box;
     const uint32_t objects = nodes_[inserted].objects;
@@ -175,16 +185,74 @@ void InsertionTree::insert(uint32_t inserted, uint32_t from) {
             touch(above);
             if (above == from) break;
         }
+    pair_up(inserted, at);
+}
+
+/// A free node, which is returned, becomes the parent of a node and of one that is in no tree, in the place
+/// of the former.
+uint32_t InsertionTree::pair_up(uint32_t inserted, uint32_t at) {
     const uint32_t pair = free_.back();
     free_.pop_back();
     Node& node = nodes_[pair];
-    node.box = joined(nodes_[at].box, box);
-    node.objects = nodes_[at].objects + objects;
+    node.box = joined(nodes_[at].box, nodes_[inserted].box);
+    node.objects = nodes_[at].objects + nodes_[inserted].objects;
     node.first_quality = quality(node);
     node.parent = nodes_[at].parent;
     node.child = {at, inserted};
     replace_child(node.parent, at, pair);
     nodes_[at].parent = nodes_[inserted].parent = pair;
+    return pair;
+}
+
+/// Below those that no other marked node is above. Nodes that have become free since they were marked have no
+/// children.
+void InsertionTree::rebuild_marked() {
+    if (marked_.empty()) return;
+    std::vector<bool> is_marked(nodes_.size(), false);
+    for (const uint32_t node : marked_) is_marked[node] = nodes_[node].child[0] != kNone;
+    std::vector<uint32_t> marked = std::exchange(marked_, {});
+    std::ranges::sort(marked);
+    marked.erase(std::unique(marked.begin(), marked.end()), marked.end());
+    for (const uint32_t node : marked) {
+        if (!is_marked[node]) continue;
+        bool is_topmost = true;
+        for (uint32_t above = nodes_[node].parent; above != kNone && is_topmost; above = nodes_[above].parent)
+            is_topmost = !is_marked[above];
+        if (is_topmost) rebuild_below(node);
+    }
+}
+
+/// Builds all below an inner node anew, of the nodes that it has; it stays the topmost of them.
+void InsertionTree::rebuild_below(uint32_t top) {
+    std::vector<uint32_t> inner, objects, todo{top};
+    while (!todo.empty()) {
+        const uint32_t at = todo.back();
+        todo.pop_back();
+        if (is_leaf(at)) {
+            objects.push_back(at);
+            continue;
+        }
+        inner.push_back(at);
+        for (const uint32_t child : nodes_[at].child) todo.push_back(child);
+    }
+    rebuilt_ += objects.size();
+    // In the order of their numbers, so that the tree depends on nothing else.
+    std::ranges::sort(objects);
+    const TopTopology topology = topology_over(objects_, objects);
+    const auto node_of = [&](TopLink link) {
+        return link.is_leaf() ? objects[link.index()] : inner[link.index()];
+    };
+    for (size_t i = inner.size(); i-- > 0;) {
+        Node& node = nodes_[inner[i]];
+        node.objects = 0;
+        for (size_t side = 0; side < 2; ++side) {
+            const uint32_t child = node.child[side] = node_of(topology.inner[i][side]);
+            nodes_[child].parent = inner[i];
+            node.objects += nodes_[child].objects;
+        }
+        node.box = box_of_children(node);
+        node.first_quality = quality(node);
+    }
 }
 
 /// Makes the boxes of ancestors smaller, as far as anything changes. A box that stays as it is ends the
@@ -247,7 +315,7 @@ double InsertionTree::expected_visits() const {
 BuildStats InsertionTree::stats() const {
     BuildStats stats;
     stats.tree_bytes = sizeof(*this) + objects_.bytes() + nodes_.capacity() * sizeof(Node) +
-                       (free_.capacity() + touched_.capacity()) * sizeof(uint32_t);
+                       (free_.capacity() + touched_.capacity() + marked_.capacity()) * sizeof(uint32_t);
     stats.tree_nodes = nodes_.size();
     stats.tree_leaves = objects_.boxes.size();
     return stats;

@@ -32,7 +32,10 @@ struct InsertionOptions {
     /// Where an object that has moved is inserted again.
     enum class Reinsertion {
         Ancestor,  ///< below the nearest ancestor that holds its new box [DynBvh06 algorithm 1]
-        Root       ///< from the root, as any other [Goldsmith87]
+        Root,      ///< from the root, as any other [Goldsmith87]
+        /// Nowhere yet: all below that ancestor is built anew when all have moved, by the surface area
+        /// heuristic [DynBvh06 sec. 3.1 proposes to mark and rebuild].
+        Rebuilt
     } reinsertion = Reinsertion::Ancestor;
 };
 
@@ -64,6 +67,8 @@ class InsertionTree {
     /// Objects that were inserted again, and nodes that were dissolved, by the last update.
     uint64_t moved() const { return moved_; }
     uint64_t dissolved() const { return dissolved_; }
+    /// Objects below nodes that the last update has built anew.
+    uint64_t rebuilt() const { return rebuilt_; }
 
     /// What must always hold; for tests. Empty: it does.
     std::string contradiction() const;
@@ -97,6 +102,10 @@ class InsertionTree {
     uint32_t climb(uint32_t from, const KeyBox& box, uint32_t objects);
     uint32_t best_sibling(const KeyBox& box, uint32_t from) const;
     void insert(uint32_t node, uint32_t from);
+    uint32_t pair_up(uint32_t inserted, uint32_t at);
+    void finish_update();
+    void rebuild_marked();
+    void rebuild_below(uint32_t top);
     void tighten_above(uint32_t node);
     void replace_child(uint32_t parent, uint32_t old_child, uint32_t new_child);
     KeyBox box_of_children(const Node& node) const {
@@ -115,7 +124,9 @@ class InsertionTree {
     std::vector<uint32_t> touched_;  ///< inner nodes whose quality has changed, some of them several times
     uint32_t root_ = kNone;
     bool inserting_all_ = false;
-    uint64_t moved_ = 0, dissolved_ = 0;
+    std::vector<uint32_t>
+        marked_;  ///< inner nodes below which the tree is to be built anew, or that are free
+    uint64_t moved_ = 0, dissolved_ = 0, rebuilt_ = 0;
 };
 
 template <class Policy>

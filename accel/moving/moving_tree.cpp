@@ -36,19 +36,18 @@ Box3f moved_with(const Box3f& box, const Box3f& whole, const Box3f& then) {
     return moved;
 }
 
-/// Boxes at all keys of its grid of the part of a micropolygon that is in `part` at mid-shutter; `whole`:
-/// those of all of it.
-void boxes_of_part(const Grid& grid, const MicropolygonId& id, const Box3f& part,
+/// Boxes at all keys of its grid of the part of a micropolygon that is in `part` when it is as `then`;
+/// `whole`: those of all of it.
+void boxes_of_part(const Grid& grid, const MicropolygonId& id, const Box3f& part, const QuadPose& then,
                    MovingTreeOptions::Clipping clipping, std::span<const Box3f> whole, KeyBoxes& boxes) {
     using Clipping = MovingTreeOptions::Clipping;
     std::ranges::copy(whole, boxes.begin());
-    const QuadPose middle = pose_of(grid, id, 0.5f);
     if (clipping != Clipping::Polygon) {
         for (size_t key = 0; key < whole.size(); ++key)
-            boxes[key] = moved_with(part, box_of(middle), whole[key]);
+            boxes[key] = moved_with(part, box_of(then), whole[key]);
         return;
     }
-    const MicropolygonPart polygon(middle, part);
+    const MicropolygonPart polygon(then, part);
     // The whole boxes, which hold any part, stay.
     if (polygon.is_empty()) return;
     std::array<int, 4> at{};
@@ -90,6 +89,19 @@ struct MovingTree::Sources {
     const SweptBoxes& boxes;
     std::span<const uint32_t> references;  ///< PartIds of places in `boxes`, list after list
     std::span<const SahItem> parts;        ///< as the references, where some are to parts
+    const LastFrame* last = nullptr;       ///< else it says which are, and of what
+};
+
+/// The frame before one that a tree is refitted to.
+struct MovingTree::LastFrame {
+    const Grids& grids;
+    std::vector<Box3f> at_close;  ///< of leaves, by their lists, as the shutter closed
+    std::vector<uint32_t> times;  ///< by micropolygon: its references
+
+    /// Sets boxes of what a leaf has of a micropolygon; false, with nothing set, where it has all of it, or
+    /// where it was nowhere that can be bounded.
+    bool boxes_of(const Grid& now, const MicropolygonId& id, size_t list,
+                  MovingTreeOptions::Clipping clipping, std::span<const Box3f> whole, KeyBoxes& boxes) const;
 };
 
 /// What bounding a leaf works on; it is large, and made once for many leaves.
@@ -175,20 +187,51 @@ bool MovingTree::lists_hold(const Grids& grids) const {
 }
 
 void MovingTree::refit(const Grids& grids) {
-    grids_ = &grids;
     if (!lists_hold(grids)) {
+        grids_ = &grids;
         build();
         return;
     }
-    // References become such to whole micropolygons: where a plane cut them in another frame says nothing
-    // here.
     const SweptBoxes boxes(grids);
-    std::vector<uint32_t> references(micropolygons_.size());
+    std::vector<uint32_t> references(micropolygons_.size()), times(boxes.size());
     for (size_t i = 0; i < references.size(); ++i) {
         const MicropolygonId& id = micropolygons_[i];
         references[i] = static_cast<uint32_t>(boxes.index_of(id, grids.grids[id.grid].shape));
+        ++times[references[i]];
     }
-    bound({boxes, references, {}});
+    const LastFrame last = last_frame(std::move(times));
+    grids_ = &grids;
+    bound({boxes, references, {}, &last});
+}
+
+MovingTree::LastFrame MovingTree::last_frame(std::vector<uint32_t> times) const {
+    LastFrame last{*grids_, {}, std::move(times)};
+    if (stats_.tree_duplicates == 0) return last;
+    last.at_close.resize(leaf_count());
+    const auto keys = static_cast<size_t>(top_.key_count);
+    for (size_t node = 0; node < top_.nodes.size(); ++node) {
+        if (!top_.nodes[node].link.is_leaf()) continue;
+        const KeyBox& box = top_.boxes[node * keys + keys - 1];
+        last.at_close[top_.nodes[node].link.index()] =
+            Box3f(V3f(box.low[0], box.low[1], box.low[2]), V3f(box.high[0], box.high[1], box.high[2]));
+    }
+    return last;
+}
+
+bool MovingTree::LastFrame::boxes_of(const Grid& now, const MicropolygonId& id, size_t list,
+                                     MovingTreeOptions::Clipping clipping, std::span<const Box3f> whole,
+                                     KeyBoxes& boxes) const {
+    const QuadPose then = pose_of(grids.grids[id.grid], id, 1);
+    Box3f part = box_of(then);
+    // Negated, so that a NaN counts as too large.
+    for (int k = 0; k < 3; ++k)
+        if (!(std::max(-part.min[k], part.max[k]) <= kBoundableCoordinate)) return false;
+    for (int k = 0; k < 3; ++k) {
+        part.min[k] = std::max(part.min[k], at_close[list].min[k]);
+        part.max[k] = std::min(part.max[k], at_close[list].max[k]);
+    }
+    boxes_of_part(now, id, part, then, clipping, whole, boxes);
+    return true;
 }
 
 void MovingTree::bound(const Sources& sources) {
@@ -238,9 +281,13 @@ void MovingTree::bound_leaf(const Sources& sources, size_t at, LeafBoxes& boxes)
             of_part[0] = Box3f(V3f(0), V3f(0));
             there = std::span(of_part).first(1);
         } else if (PartId::is_part(reference)) {
-            boxes_of_part(grids_->grids[id.grid], id, sources.parts[r].box, options_.clipping, whole,
+            const Grid& grid = grids_->grids[id.grid];
+            boxes_of_part(grid, id, sources.parts[r].box, pose_of(grid, id, .5f), options_.clipping, whole,
                           of_part);
             there = std::span(of_part).first(whole.size());
+        } else if (sources.last && sources.last->times[reference] > 1) {
+            if (sources.last->boxes_of(grids_->grids[id.grid], id, list, options_.clipping, whole, of_part))
+                there = std::span(of_part).first(whole.size());
         }
         keyed_boxes(there, std::span(at_keys).first(keys));
         for (size_t key = 0; key < keys; ++key) of_leaf[key].extendBy(at_keys[key]);

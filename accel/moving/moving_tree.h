@@ -26,14 +26,17 @@ class MovingTree final : public ListTree {
     /// Builds in parallel. Keeps a reference to the grids. At most 2^30 micropolygons and parts.
     explicit MovingTree(const Grids& grids, const MovingTreeOptions& options = {});
 
-    /// Takes the grids of another frame of the same sequence, in place of those that the tree was built for:
-    /// nodes and lists stay, and boxes are made anew, in parallel, for whole micropolygons. Grids of other
-    /// shapes are built. Keeps a reference to the grids.
+    /// Takes the grids of another frame of the same sequence, in place of those that the tree has, which must
+    /// still be there: nodes and lists stay, and boxes are made anew, in parallel. A micropolygon of which
+    /// several leaves have a part is cut again, by each leaf's box as it was at the last frame's shutter
+    /// close [Gruenschloss11 sec. 5]: together the boxes hold all of it then, and so wherever it is. Grids of
+    /// other shapes are built. Keeps a reference to the grids.
     void refit(const Grids& grids);
 
   private:
     struct Sources;
     struct LeafBoxes;
+    struct LastFrame;
 
     void build();
     /// Makes a tree by the surface area heuristic, with splits if there is a budget for them.
@@ -42,6 +45,9 @@ class MovingTree final : public ListTree {
     void link_nodes(const TopTopology& topology);
     /// Whether the lists have all micropolygons of grids, and no others.
     bool lists_hold(const Grids& grids) const;
+    /// What refit() keeps of the frame that the tree is of; `times`: how many references each micropolygon
+    /// has.
+    LastFrame last_frame(std::vector<uint32_t> times) const;
     /// Bounds all nodes.
     void bound(const Sources& sources);
     void bound_leaf(const Sources& sources, size_t node, LeafBoxes& boxes);

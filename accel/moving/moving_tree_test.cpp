@@ -191,11 +191,18 @@ TEST(MovingTree, RefittedSeesEveryFrameAsItIs) {
         add_strips(maker, 300, 1, noise);
         return maker;
     }();
-    for (const MovingTreeOptions options :
-         {MovingTreeOptions{}, {.budget = 2}, {.topology = MovingTreeOptions::Topology::Morton}}) {
+    for (const MovingTreeOptions options : {MovingTreeOptions{},
+                                            {.budget = 2},
+                                            {.budget = 2, .clipping = MovingTreeOptions::Clipping::Box},
+                                            {.budget = 2, .keys = 1},
+                                            {.topology = MovingTreeOptions::Topology::Morton}}) {
         MovingTree tree(first.grids(), options);
         const uint64_t nodes = tree.stats().tree_nodes;
         const double built = tree.stats().tree_sah_cost;
+        // The same frame once more: parts are cut by boxes that hold little more than them.
+        tree.refit(first.grids());
+        EXPECT_EQ(testing::differing_rays(first, tree, 300, 30), 0);
+        EXPECT_LT(tree.stats().tree_sah_cost, built * 1.1);
         for (const GridMaker* frame : {&second, &fewer_keys, &first}) {
             tree.refit(frame->grids());
             EXPECT_EQ(testing::differing_rays(*frame, tree, 300, 30), 0);

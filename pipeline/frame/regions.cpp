@@ -12,13 +12,18 @@ namespace {
 /// The part of a region in a rectangle: the subpatches that it may see, and the memory for these.
 Region part_of(const Region& whole, const PixelRect& pixels, std::span<const SubpatchInfo> subpatches,
                const RegionLimits& limits) {
-    Region part{pixels, {}, limits.build.fixed};
+    Region part{pixels, {}};
+    size_t micropolygons = 0;
+    int most_keys = 1;
     for (const uint32_t index : whole.subpatches) {
         const PixelRect seen = intersection(subpatches[index].bound, pixels);
         if (seen.empty() || (limits.awaited && !limits.awaited->meet(seen))) continue;
         part.subpatches.push_back(index);
         part.estimated_bytes += estimated_bytes(subpatches[index], limits);
+        micropolygons += static_cast<size_t>(subpatches[index].shape.micropolygon_count());
+        most_keys = std::max<int>(most_keys, subpatches[index].key_count);
     }
+    part.estimated_bytes += limits.build.bytes_of_all(micropolygons, most_keys);
     return part;
 }
 

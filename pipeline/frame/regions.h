@@ -35,7 +35,8 @@ struct RegionLimits {
     BuildMemory build{};  ///< of the visibility method
 };
 
-/// Upper estimate, in bytes, of the memory of a subpatch's grid and its part of the tree.
+/// Upper estimate, in bytes, of the memory of a subpatch's grid and its part of the tree, but for what is of
+/// all together (BuildMemory::bytes_of_all()).
 size_t estimated_bytes(const SubpatchInfo& subpatch, const RegionLimits& limits);
 
 /// Splits `pixels`, or the part of them that is awaited, along tile borders, the longer side first, until

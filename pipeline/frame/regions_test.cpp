@@ -59,22 +59,25 @@ TEST(Regions, SplitUntilTheyFitTheBudget) {
 
 /// A method that takes more has smaller regions.
 TEST(Regions, WhatTheMethodTakesCounts) {
-    const auto infos = scattered_subpatches(2000);
+    auto infos = scattered_subpatches(2000);
+    for (size_t i = 0; i < infos.size(); i += 7) infos[i].key_count = 5;
     const PixelRect pixels{0, 0, 320, 200};
     const auto region_with = [&](const BuildMemory& build) {
         return split_into_regions(pixels, infos, {.bytes = ~size_t{0}, .build = build})[0];
     };
     const auto whole_with = [&](const BuildMemory& build) { return region_with(build).estimated_bytes; };
     const std::vector<uint32_t> seen = region_with({}).subpatches;
-    size_t micropolygons = 0, segments = 0;
+    size_t micropolygons = 0, segments = 0, most = 0;
     for (const uint32_t index : seen) {
         const SubpatchInfo& info = infos[index];
         const auto count = static_cast<size_t>(info.shape.micropolygon_count());
         micropolygons += count;
-        segments += count * static_cast<size_t>(std::max(1, info.key_count - 1));
+        const auto own = static_cast<size_t>(std::max(1, info.key_count - 1));
+        segments += count * own, most = std::max(most, own);
     }
     const size_t nothing = whole_with({0, 0, 0, 0});
     EXPECT_EQ(whole_with({3, 5, 7, 11}) - nothing, 3 * micropolygons + 5 * segments + 7 * seen.size() + 11);
+    EXPECT_EQ(whole_with({0, 0, 0, 0, 13}) - nothing, 13 * micropolygons * most);
     const size_t budget = whole_with({});
     EXPECT_EQ(split_into_regions(pixels, infos, {.bytes = budget}).size(), 1u);
     EXPECT_GT(split_into_regions(pixels, infos, {.bytes = budget, .build = {2000, 0, 0, 0}}).size(), 1u);

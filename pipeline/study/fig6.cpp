@@ -58,6 +58,7 @@ void add_close_ups(StudyResult& result, const std::string& effect, const Image& 
          worst_places(block_means(reference, kBlockSide), judged, kCloseUpSide, kCloseUps)) {
         StudyCloseUps& row = result.close_ups.emplace_back();
         row.title = fmt::format("{}: x {} to {}, y {} to {}", effect, place.x0, place.x1, place.y0, place.y1);
+        row.about = "Where means over some pixels are farthest from the reference.";
         row.pictures.emplace_back("reference", part_of(reference, place));
         for (size_t m = 0; m < pictures.size(); ++m)
             row.pictures.emplace_back(paper::kMethods[m], part_of(pictures[m], place));

@@ -29,7 +29,8 @@ StudyCloseUps pictures_of_lost_hits(const std::string& scene, const Image& right
         else
             rgb[0] = 1, rgb[1] = rgb[2] = 0;
     }
-    StudyCloseUps pictures{scene + ": hits that naive clipping loses", {}};
+    StudyCloseUps pictures{
+        scene + ": hits that naive clipping loses", {}, "The whole picture; hits that are lost are marked."};
     pictures.pictures.emplace_back("clipped polygons", part_of(right, right.window));
     pictures.pictures.emplace_back("naive clipping", part_of(wrong, wrong.window));
     pictures.pictures.emplace_back("naive clipping, lost hits in red", std::move(marked));

@@ -10,6 +10,7 @@
 #include "pipeline/compare/value_text.h"
 #include "pipeline/study/lost_hits.h"
 #include "pipeline/study/moving_checks.h"
+#include "pipeline/study/refitting.h"
 #include "pipeline/study/studies.h"
 
 namespace trapeze {
@@ -299,6 +300,7 @@ void study_msbvh(StudyBench& bench, StudyResult& result) {
         if (run.scene.of_paper != paper::kMovingScenes)
             add_checks(result, checks_of_spatial_splits(run.label(), ratios_of(run, 1),
                                                         paper::kMsbvh[run.scene.of_paper]));
+    add_refitting(bench, result);
 }
 
 void study_mbkd(StudyBench& bench, StudyResult& result) {

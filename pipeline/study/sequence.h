@@ -34,14 +34,16 @@ inline constexpr SequenceRow kSequenceRows[] = {
     {"loose", "raytrace:tree=loose"},
     {"updated, nodes thinned at 1.2", "raytrace:tree=dynamic,thinning=1.2"},
     {"updated, inserted at the root", "raytrace:tree=dynamic,reinsert=root"},
+    {"updated, marked parts built anew", "raytrace:tree=dynamic,reinsert=rebuilt"},
     {"updated, not told what moves", "raytrace:tree=dynamic", false},
     {"loose, all at the lowest level", "raytrace:tree=loose,place=lowest"},
+    {"two levels, loose for what moves", "raytrace:tree=twolevel"},
     {"refitted", "raytrace:tree=refit,bundle=off"},
     {"interpolated boxes, built anew", "raytrace:tree=interpolated,bundle=off"},
     {"linear, built anew", "raytrace:tree=lbvh,bundle=off"},
     {"hyper-trapezoids, built anew", "raytrace:tree=paper,bundle=off"},
     {"Trapeze's wide tree, built anew", "raytrace"}};
-inline constexpr size_t kSequenceRowCount = std::size(kSequenceRows), kRefittedRow = 7, kInterpolatedRow = 8;
+inline constexpr size_t kSequenceRowCount = std::size(kSequenceRows), kRefittedRow = 9, kInterpolatedRow = 10;
 
 /// What the rows cost on a sequence: seconds by row, then frame, then round.
 struct SequenceTimes {

@@ -44,6 +44,7 @@ struct HistogramPlot {
 struct StudyCloseUps {
     std::string title;
     std::vector<std::pair<std::string, LinearPicture>> pictures;
+    std::string about{};  ///< a sentence: what is to be seen
 };
 
 /// What pixels cost several methods, on one scale of colours; row by row.

@@ -4,6 +4,7 @@
 
 #include "accel/dynamic/insertion_tree.h"
 #include "accel/dynamic/loose_tree.h"
+#include "accel/dynamic/two_level_tree.h"
 #include "accel/moving/kd_tree.h"
 #include "accel/moving/moving_tree.h"
 #include "accel/paper/micropolygon_tree.h"
@@ -62,6 +63,7 @@ InsertionOptions insertion_options(const MethodSpec& spec) {
     options.passes = spec["tree"] == "dynamic" ? 2 : 0;
     if (spec["order"] == "given") options.order = InsertionOptions::Order::Given;
     if (spec["reinsert"] == "root") options.reinsertion = InsertionOptions::Reinsertion::Root;
+    if (spec["reinsert"] == "rebuilt") options.reinsertion = InsertionOptions::Reinsertion::Rebuilt;
     if (spec["thinning"] != "off") options.thinning = std::stof(std::string(spec["thinning"]));
     return options;
 }
@@ -84,6 +86,10 @@ Tree built(const VisibilityInput& input) {
         return tree;
     } else if constexpr (std::is_same_v<Tree, LooseTree>) {
         Tree tree(loose_options(spec));
+        tree.build(input.grids);
+        return tree;
+    } else if constexpr (std::is_same_v<Tree, TwoLevelTree>) {
+        Tree tree;
         tree.build(input.grids);
         return tree;
     } else {
@@ -114,7 +120,7 @@ struct BinaryScratch {
     std::vector<Hit> hits;         ///< of one ray
 };
 
-/// `Tree` is one with parts, or KdTree, InsertionTree or LooseTree.
+/// `Tree` is one with parts, or KdTree, InsertionTree, LooseTree or TwoLevelTree.
 template <class Tree>
 class BinaryRayTraced final : public Visibility {
   public:
@@ -123,7 +129,7 @@ class BinaryRayTraced final : public Visibility {
           range_{input.context.camera.near_clip, input.context.camera.far_clip},
           sort_by_time_(input.context.motion && input.spec.is_on("ray_sort")),
           sort_by_direction_(input.context.camera.has_lens() && input.spec.is_on("ray_sort")),
-          updates_(updates(input.spec["tree"])),
+          updates_(updates(input.spec)),
           all_opaque_(every_grid_is_opaque(input.grids)),
           tree_(built<Tree>(input)) {
         tell_of_budget(input, tree_.stats());
@@ -159,7 +165,7 @@ class BinaryRayTraced final : public Visibility {
         if (!updates_) return false;
         if constexpr (std::is_same_v<Tree, MovingTree>)
             tree_.refit(grids);
-        else if constexpr (std::is_same_v<Tree, InsertionTree>)
+        else if constexpr (requires { tree_.update(grids, *changed); })
             changed ? tree_.update(grids, *changed) : tree_.update(grids);
         else if constexpr (requires { tree_.update(grids); })
             tree_.update(grids);
@@ -168,8 +174,10 @@ class BinaryRayTraced final : public Visibility {
     }
 
   private:
-    static bool updates(std::string_view tree) {
-        return tree == "refit" || tree == "dynamic" || tree == "loose";
+    static bool updates(const MethodSpec& spec) {
+        const std::string_view tree = spec["tree"];
+        return tree == "refit" || tree == "dynamic" || tree == "loose" || tree == "twolevel" ||
+               spec.is_on("refit");
     }
 
     /// Calls trace_one(sample, part of the tree, or null: all of it) for all samples in order. What a beam
@@ -272,6 +280,7 @@ std::unique_ptr<Visibility> prepare_binary_raytrace(const VisibilityInput& input
     if (tree == "mbkd") return std::make_unique<BinaryRayTraced<KdTree>>(input);
     if (tree == "gs" || tree == "dynamic") return std::make_unique<BinaryRayTraced<InsertionTree>>(input);
     if (tree == "loose") return std::make_unique<BinaryRayTraced<LooseTree>>(input);
+    if (tree == "twolevel") return std::make_unique<BinaryRayTraced<TwoLevelTree>>(input);
     if (tree != "paper" && tree != "wide") return std::make_unique<BinaryRayTraced<MovingTree>>(input);
     if (input.spec["split"] == "sah") return std::make_unique<BinaryRayTraced<MicropolygonTree>>(input);
     return std::make_unique<BinaryRayTraced<PaperTree>>(input);

@@ -1,5 +1,7 @@
 /// The row "raytrace": rays through a tree of grids, the fast one or the paper's.
+#include <algorithm>
 #include <array>
+#include <utility>
 
 #include "accel/wide/wide_tree.h"
 #include "sample/raytrace/binary_raytrace.h"
@@ -13,7 +15,8 @@ namespace {
 const std::vector<SpecOption>& raytrace_options() {
     static const std::vector<SpecOption> options = {
         {"tree",
-         {"wide", "paper", "interpolated", "msbvh", "lbvh", "refit", "mbkd", "gs", "dynamic", "loose"}},
+         {"wide", "paper", "interpolated", "msbvh", "lbvh", "refit", "mbkd", "gs", "dynamic", "loose",
+          "twolevel"}},
         {"bundle", {"on", "off"}},
         {"bounds", {"obb", "aabb", "aabb4d"}},
         {"split", {"parametric", "sah"}},
@@ -23,6 +26,7 @@ const std::vector<SpecOption>& raytrace_options() {
         {"leaf", {"8", "4", "16", "32"}},
         {"keys", {"grids", "1", "2", "3", "5", "9", "17"}},
         {"clip", {"polygon", "box", "naive"}},
+        {"refit", {"off", "on"}},
         {"budget", {"2", "1", "4", "8"}},
         {"duplicates", {"16", "2", "4", "8", "64"}},
         {"plane", {".5", "0", "1"}},
@@ -31,7 +35,7 @@ const std::vector<SpecOption>& raytrace_options() {
         {"mailbox", {"on", "off"}},
         {"thinning", {"off", "1.1", "1.2", "1.5", "2"}},
         {"order", {"shuffled", "given"}},
-        {"reinsert", {"ancestor", "root"}},
+        {"reinsert", {"ancestor", "root", "rebuilt"}},
         {"levels", {"18", "9", "12", "15", "21"}},
         {"place", {"size", "lowest"}},
         {"skip", {"on", "off"}},
@@ -44,12 +48,13 @@ std::string_view trees_with(std::string_view option) {
     struct Row {
         std::string_view option, trees;
     };
-    static constexpr std::array<Row, 17> kRows{{
+    static constexpr std::array<Row, 18> kRows{{
         {"bundle", "paper|interpolated|msbvh|lbvh|refit"},
-        {"ray_sort", "paper|interpolated|msbvh|lbvh|refit|mbkd|gs|dynamic|loose"},
+        {"ray_sort", "paper|interpolated|msbvh|lbvh|refit|mbkd|gs|dynamic|loose|twolevel"},
         {"leaf", "paper|interpolated|msbvh|lbvh|refit|mbkd"},
         {"keys", "interpolated|msbvh|lbvh|refit"},
         {"clip", "msbvh"},
+        {"refit", "msbvh|lbvh"},
         {"budget", "msbvh"},
         {"duplicates", "mbkd"},
         {"plane", "mbkd"},
@@ -88,7 +93,7 @@ BuildMemory build_memory(const MethodSpec& spec) {
         BuildMemory memory;
         bool swept_boxes;  ///< it is made of boxes of all micropolygons at the keys
     };
-    static constexpr std::array<Row, 8> kRows{{
+    static constexpr std::array<Row, 9> kRows{{
         {"paper", {0, 20, 700}, false},
         {"interpolated", {100, 100, 256}, true},
         {"refit", {100, 100, 256}, true},
@@ -97,17 +102,26 @@ BuildMemory build_memory(const MethodSpec& spec) {
         {"mbkd", {120, 0, 256}, true},
         {"gs", {190, 0, 8}, false},
         {"dynamic", {190, 0, 8}, false},
+        {"twolevel", {190, 0, 8}, false},
     }};
     const std::string_view tree = spec["tree"];
     BuildMemory memory;
     bool swept_boxes = false;
     for (const Row& row : kRows)
         if (row.tree == tree) memory = row.memory, swept_boxes = row.swept_boxes;
+    // Nodes have as many keys as any grid has, or as the spec says.
+    if (swept_boxes && tree != "mbkd") {
+        if (spec["keys"] == "grids")
+            memory.per_most_segment = std::exchange(memory.per_segment, 0);
+        else
+            memory.per_micropolygon += std::exchange(memory.per_segment, 0) *
+                                       static_cast<size_t>(std::max(1, spec.number("keys") - 1));
+    }
     // So many times may a micropolygon be in the tree.
     const size_t times = tree == "msbvh"  ? 1 + static_cast<size_t>(spec.number("budget"))
                          : tree == "mbkd" ? 1 + static_cast<size_t>(spec.number("duplicates"))
                                           : 1;
-    memory.per_micropolygon *= times, memory.per_segment *= times;
+    memory.per_micropolygon *= times, memory.per_segment *= times, memory.per_most_segment *= times;
     if (swept_boxes)  // of which there is one more than segments
         memory.per_micropolygon += sizeof(MicropolygonId) + sizeof(Box3f),
             memory.per_segment += sizeof(Box3f);

@@ -398,7 +398,7 @@ void add_scene_options(CLI::App& app, Arguments& a) {
     add_number(app, "--shading-factor", p.shading_rate, 1e-3, 1e3, "multiplies the scene's ShadingRate", "F")
         ->capture_default_str();
     add_number(app, "--time", p.time, 0.0, 1e3,
-               "seconds since the sequence began, of falling, bubbles, crocodile and hand", "T")
+               "seconds since the sequence began, of falling, bubbles, crocodile, hand and hair", "T")
         ->capture_default_str();
     add_resolution_option(app, a, "size of the picture");
     add_file(app, "-o,--output", a.output, "writes to a file instead of standard output", "FILE.rib");

@@ -65,11 +65,10 @@ std::string close_ups(const StudyResult& r) {
     if (r.close_ups.empty()) return {};
     constexpr int kMagnified = 5;
     std::string out = fmt::format(
-        "<section id=\"places\">\n<h2>Close-ups</h2>\n<p>Where means over some pixels are farthest from the reference; "
-        "every pixel {} times as large.</p>\n",
-        kMagnified);
+        "<section id=\"places\">\n<h2>Close-ups</h2>\n<p>Every pixel {} times as large.</p>\n", kMagnified);
     for (const StudyCloseUps& row : r.close_ups) {
-        out += "<h3>" + escaped(row.title) + "</h3>\n<div class=\"crops\">\n";
+        out +=
+            "<h3>" + escaped(row.title) + "</h3>\n<p>" + escaped(row.about) + "</p>\n<div class=\"crops\">\n";
         for (const auto& [name, picture] : row.pictures) out += close_up_figure(picture, name, kMagnified);
         out += "</div>\n";
     }

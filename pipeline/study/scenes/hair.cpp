@@ -1,6 +1,7 @@
 /// Furry balls before a plain wall. A hair is one bicubic patch, narrow enough that it is diced into a single
 /// row of micropolygons; hairs come in tufts that cover a whole ball thinly, and a tuft is instanced many
-/// times, turned about the ball's upright axis so that all of its hairs go on hanging down.
+/// times, turned about the ball's upright axis so that all of its hairs go on hanging down. A second is one
+/// shutter at motion 1.
 #include <algorithm>
 #include <array>
 
@@ -71,9 +72,10 @@ void write_tufts(RibWriter& rib, double scale) {
 void write_ball(RibWriter& rib, uint32_t number, int tufts, const SceneParameters& p) {
     const Ball& ball = kBalls[number];
     const auto whole = rib.block("Attribute");
-    write_moving(rib, "Translate", {ball.place.x, ball.place.y, ball.place.z},
-                 {ball.moved.x, ball.moved.y, ball.moved.z}, p);
-    write_moving(rib, "Rotate", {0, 0, 1, 0}, {ball.turned, 0, 0, 0}, p);
+    const V3d place = ball.place + p.time * ball.moved;
+    write_moving(rib, "Translate", {place.x, place.y, place.z}, {ball.moved.x, ball.moved.y, ball.moved.z},
+                 p);
+    write_moving(rib, "Rotate", {p.time * ball.turned + 0.0, 0, 1, 0}, {ball.turned, 0, 0, 0}, p);
     rib.request("Scale", ball.radius, ball.radius, ball.radius);
     {
         const auto skin = rib.block("Attribute");

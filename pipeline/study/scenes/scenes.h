@@ -17,7 +17,8 @@ struct SceneParameters {
     double defocus = 1;       ///< multiplies the lens; 0: a pinhole
     double shading_rate = 1;  ///< multiplies the scene's own
     int width = 1280, height = 720;
-    /// Seconds, of scenes that are sequences (falling, bubbles, crocodile, hand); the others are one moment.
+    /// Seconds, of scenes that are sequences (falling, bubbles, crocodile, hand, hair); the others are one
+    /// moment.
     double time = 0;
 };
 
