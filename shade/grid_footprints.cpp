@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/axis_frame.h"
 #include "core/portable_math.h"
 #include "core/scene/scene.h"
 #include "shade/materials/polygon_parameters.h"
@@ -16,16 +17,9 @@ namespace {
 /// shading rate of 1. Half of it is a little nearer to the truth, since the pixel filter spreads once more,
 /// but far rows show grain.
 constexpr float kLeastAxis = 1.0f;
-/// The most that a footprint seen edge-on is stretched, as a multiple of its micropolygon.
-constexpr float kMostStretch = 4096;
 /// The least cosine of the angle between the view's axis and a point that is projected: points farther aside
 /// are left as they are.
 constexpr float kLeastCosine = 0.05f;
-
-/// How far the parameters (u, v) go from a vertex to the next along each of a grid's axes.
-struct ParameterSteps {
-    V2f along_u, along_v;
-};
 
 /// The mean parameter steps of a piece, measured along its middle: vertices of its borders may be moved along
 /// them to where a neighbour has its own. `first` is the piece's first vertex.
@@ -111,35 +105,27 @@ V2f seen(const V3f& P, const V3f& d, const V2f& pixels, bool perspective) {
             (d.y - P.y * nearness * d.z) * nearness * pixels.y};
 }
 
-/// A symmetric matrix by which the two steps are mixed so that their ellipse has no short axis.
-struct Stretch {
-    float uu = 1, uv = 0, vv = 1;
-};
-
-/// The stretch for steps that are seen as `u` and `v` (pixels), so that no axis of the ellipse that they span
-/// is shorter than `least` pixels. The ellipse's axes are the singular values of the matrix (u v); the
-/// stretch multiplies each by what it lacks.
-Stretch stretch(const V2f& u, const V2f& v, float least) {
-    const float a = u.dot(u), b = u.dot(v), c = v.dot(v), area = u.x * v.y - u.y * v.x;
-    const float middle = (a + c) / 2, apart = std::sqrt((a - c) * (a - c) / 4 + b * b);
-    // Squares of the ellipse's axes.
-    const float longer = middle + apart, shorter = area * area / std::max(longer, 1e-30f);
-    const auto wanted = [&](float square) {
-        return std::clamp(least / std::sqrt(std::max(square, 1e-30f)), 1.0f, kMostStretch);
-    };
-    const float of_longer = wanted(longer), of_shorter = wanted(shorter);
-    const float more = apart > 0 ? (of_longer - of_shorter) / (2 * apart) : 0;
-    return {of_shorter + more * (a - shorter), more * b, of_shorter + more * (c - shorter)};
-}
-
 /// The stretch of a micropolygon at P; none behind the eye, far aside, or where the surface has no plane.
 Stretch stretch_at(const V3f& P, const VertexSteps& along, const Camera& camera, float least) {
     if (camera.perspective && !(P.z > 0 && P.z * P.z > kLeastCosine * kLeastCosine * P.length2())) return {};
     const V2f pixels(std::abs(1 / camera.plane_scale_x), std::abs(1 / camera.plane_scale_y));
-    const Stretch found = stretch(seen(P, along.u, pixels, camera.perspective),
-                                  seen(P, along.v, pixels, camera.perspective), least);
-    if (!along.span_a_plane()) return {};
-    return std::isfinite(found.uu + found.uv + found.vv) ? found : Stretch{};
+    const Stretch found = stretch_to_least(seen(P, along.u, pixels, camera.perspective),
+                                           seen(P, along.v, pixels, camera.perspective), least);
+    return along.span_a_plane() && found.is_finite() ? found : Stretch();
+}
+
+/// The stretch of a micropolygon that a ray has hit, which comes along `I`: up to where the rays beside it
+/// meet the plane. Where these are not known it is as large as the micropolygon at least. None where the
+/// surface has no plane.
+Stretch stretch_at_hit(const ShadingGrid& grid, const V3f& I, const VertexSteps& along) {
+    const RayFootprint& ray = grid.hit_ray;
+    const V3f way = unit_or_zero(I);
+    if (way == V3f(0, 0, 0) || !along.span_a_plane()) return {};
+    const AxisFrame<float> frame(way);
+    const Stretch found = stretch_to_ellipse(frame.across_of(along.u), frame.across_of(along.v),
+                                             frame.across_of(grid.hit_across[0]),
+                                             frame.across_of(grid.hit_across[1]), ray.width, ray.is_known());
+    return found.is_finite() ? found : Stretch();
 }
 
 /// Marks with 1 the vertices of a piece that stretch_at() may stretch, the others with 0; for a piece that is
@@ -182,7 +168,8 @@ const vm::Footprint& GridFootprints::get() {
     size_t vertices = 0;
     for (const ShadingGrid* grid : grids_) vertices += grid->vertex_count();
     pool_.start(vertices);
-    Plane* const planes[] = {&u_, &v_, &u_of_a_, &v_of_a_, &u_of_b_, &v_of_b_, &du_, &dv_, &widening_};
+    Plane* const planes[] = {&u_,  &v_,  &u_of_a_, &v_of_a_, &u_of_b_, &v_of_b_,
+                             &du_, &dv_, &uu_,     &uv_,     &vv_,     &widening_};
     for (Plane* plane : planes) *plane = pool_.take();
     thin_ = pool_.take();
     size_t first = 0;
@@ -196,16 +183,13 @@ const vm::Footprint& GridFootprints::get() {
         std::fill(plane->begin() + static_cast<std::ptrdiff_t>(first), plane->end(),
                   first > 0 ? (*plane)[first - 1] : 0.0f);
     const auto operand = [](Plane plane) { return vm::Operand{plane.data(), ~size_t{0}, 0, 0, 0}; };
-    footprint_ = {operand(u_),    operand(v_), u_of_a_.data(), v_of_a_.data(),  u_of_b_.data(),
-                  v_of_b_.data(), du_.data(),  dv_.data(),     widening_.data()};
+    footprint_ = {operand(u_), operand(v_), u_of_a_.data(),   v_of_a_.data(), u_of_b_.data(), v_of_b_.data(),
+                  du_.data(),  dv_.data(),  widening_.data(), uu_.data(),     uv_.data(),     vv_.data()};
     return footprint_;
 }
 
 void GridFootprints::find(const ShadingGrid& grid, size_t first) {
     const auto in_piece = static_cast<size_t>(grid.shape.vertex_count());
-    const float rate = grid.primitive ? grid.primitive->attributes->shading_rate : 1.0f;
-    const float least = kLeastAxis * std::sqrt(std::clamp(rate, 0.0f, 1.0f));
-    const Triples& P = grid.P.front();
     for (size_t piece = 0; piece < grid.vertex_count(); piece += in_piece) {
         const ParameterSteps step = parameter_steps(grid, piece);
         const V2f &U = step.along_u, &V = step.along_v;
@@ -214,24 +198,49 @@ void GridFootprints::find(const ShadingGrid& grid, size_t first) {
         };
         fill(u_of_a_, U.x), fill(v_of_a_, U.y), fill(u_of_b_, V.x), fill(v_of_b_, V.y);
         fill(du_, way_of(U.x, 1, V.x, 1)), fill(dv_, way_of(U.y, 1, V.y, 1));
-        fill(widening_, 1);
+        fill(uu_, 1), fill(uv_, 0), fill(vv_, 1), fill(widening_, 1);
         if (!stretched_) continue;
-        const Plane thin = thin_.subspan(first + piece, in_piece);
-        if (grid.displaced)
-            std::ranges::fill(thin, 1.0f);
+        if (grid.I.size() > 0)
+            stretch_to_ray(grid, piece, first + piece, step);
         else
-            find_thin(grid, piece, step, camera_, least, thin);
-        for (size_t i = piece; i < piece + in_piece; ++i) {
-            if (thin[i - piece] == 0) continue;
-            const Stretch s = stretch_at(P.at(i), VertexSteps(grid, piece, i, step), camera_, least);
-            const size_t to = first + i;
-            const float wider_u = portable::hypot(s.uu, s.uv), wider_v = portable::hypot(s.uv, s.vv);
-            u_of_a_[to] = U.x * s.uu + V.x * s.uv, v_of_a_[to] = U.y * s.uu + V.y * s.uv;
-            u_of_b_[to] = U.x * s.uv + V.x * s.vv, v_of_b_[to] = U.y * s.uv + V.y * s.vv;
-            du_[to] = way_of(U.x, wider_u, V.x, wider_v), dv_[to] = way_of(U.y, wider_u, V.y, wider_v);
-            widening_[to] = wider_u * wider_v;
-        }
+            stretch_to_pixels(grid, piece, first + piece, step);
     }
+}
+
+void GridFootprints::stretch_to_pixels(const ShadingGrid& grid, size_t piece, size_t lane,
+                                       const ParameterSteps& step) {
+    const auto in_piece = static_cast<size_t>(grid.shape.vertex_count());
+    const float rate = grid.primitive ? grid.primitive->attributes->shading_rate : 1.0f;
+    const float least = kLeastAxis * std::sqrt(std::clamp(rate, 0.0f, 1.0f));
+    const Triples& P = grid.P.front();
+    const Plane thin = thin_.subspan(lane, in_piece);
+    if (grid.displaced)
+        std::ranges::fill(thin, 1.0f);
+    else
+        find_thin(grid, piece, step, camera_, least, thin);
+    for (size_t i = 0; i < in_piece; ++i) {
+        if (thin[i] == 0) continue;
+        const size_t vertex = piece + i;
+        put(lane + i, step, stretch_at(P.at(vertex), VertexSteps(grid, piece, vertex, step), camera_, least));
+    }
+}
+
+void GridFootprints::stretch_to_ray(const ShadingGrid& grid, size_t piece, size_t lane,
+                                    const ParameterSteps& step) {
+    for (size_t i = 0; i < static_cast<size_t>(grid.shape.vertex_count()); ++i) {
+        const size_t vertex = piece + i;
+        put(lane + i, step, stretch_at_hit(grid, grid.I.at(vertex), VertexSteps(grid, piece, vertex, step)));
+    }
+}
+
+void GridFootprints::put(size_t lane, const ParameterSteps& step, const Stretch& s) {
+    const V2f &U = step.along_u, &V = step.along_v;
+    const float wider_u = portable::hypot(s.uu, s.uv), wider_v = portable::hypot(s.uv, s.vv);
+    uu_[lane] = s.uu, uv_[lane] = s.uv, vv_[lane] = s.vv;
+    u_of_a_[lane] = U.x * s.uu + V.x * s.uv, v_of_a_[lane] = U.y * s.uu + V.y * s.uv;
+    u_of_b_[lane] = U.x * s.uv + V.x * s.vv, v_of_b_[lane] = U.y * s.uv + V.y * s.vv;
+    du_[lane] = way_of(U.x, wider_u, V.x, wider_v), dv_[lane] = way_of(U.y, wider_u, V.y, wider_v);
+    widening_[lane] = wider_u * wider_v;
 }
 
 }  // namespace trapeze

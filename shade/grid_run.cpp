@@ -198,9 +198,7 @@ Task<vm::Registers*> GridRun::run_layer(const LayeredShader& shader, size_t laye
     // Lights that ask for the surface's variables may see them before the surface sets them.
     const bool all = std::ranges::any_of(material_.lights,
                                          [](const Lamp* lamp) { return lamp->asks_surface || lamp->area; });
-    // What a ray has hit is no smaller than the ray; the camera's pixels are of no matter.
-    const bool stretched =
-        bound.program().kind != rsl::ShaderKind::Displacement && grids.front()->I.size() == 0;
+    const bool stretched = bound.program().kind != rsl::ShaderKind::Displacement;
     GridFootprints footprints(grids, context_.camera, stretched);
     set_variables(registers, grids, context_, footprints, shaded, all);
     messages_.running = bound.program().name;

@@ -78,6 +78,7 @@ class Dicer {
         grid_.displaced = false;
         grid_.I.resize(0);
         grid_.hit_vertex = -1, grid_.hit_level = 0, grid_.hit_place.reset();
+        grid_.hit_ray = RayFootprint();
         grid_.medium = {};
         grid_.own_colors = false;
         grid_.shared_vertices.clear();

@@ -105,14 +105,11 @@ class RayScene {
     /// opacity.
     virtual void blocked(std::span<const RaySegment* const> rays, RayKind kind,
                          std::span<std::optional<bool>> blocked) const = 0;
-    /// Whether RaySegment::spread counts.
-    virtual bool has_levels() const = 0;
     /// How many rays a thread should ask for at once, at least: more than otherwise where that spares making
     /// geometry again.
     virtual size_t rays_at_once() const = 0;
     /// Makes a grid of one micropolygon with a vertex at the hit, of which the number is returned, on the
-    /// limit surface; at all its keys where it moves. Its sides are those of the ray's geometry, so that
-    /// derivatives and filter widths are those of what the ray has met.
+    /// limit surface; at all its keys where it moves. Its sides are those of the ray's geometry.
     virtual int dice(const RaySurfaceHit& hit, ShadingGrid& grid) const = 0;
     /// A pixel's side at a point, camera space: rays know surfaces no better.
     virtual float spacing(const V3f& P) const = 0;

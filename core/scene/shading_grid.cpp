@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/axis_frame.h"
 #include "core/half.h"
 #include "core/motion_keys.h"
 #include "core/scene/depth_filter.h"
@@ -75,6 +76,34 @@ bool faces_the_eye(const Shape& shape) {
     return std::holds_alternative<Curves>(shape.topology) && !shape.variables.find("N");
 }
 
+/// The rays about one that has met something after `way`, told from it and the two beside it.
+class RaysBeside {
+  public:
+    RaysBeside(const RayFootprint& there, const V3f& way) : frame_(unit_or_zero(way)) {
+        if (!there.is_known()) return;
+        const V2f a = frame_.across_of(there.origin[0]), b = frame_.across_of(there.origin[1]);
+        const float area = a.x * b.y - a.y * b.x;
+        // Where they come together none can be told from another.
+        if (!(std::abs(area) > kLeastSine * a.length() * b.length())) return;
+        a_ = V2f(b.y, -b.x) / area, b_ = V2f(-a.y, a.x) / area;
+        const float length = way.length();
+        for (size_t k = 0; k < 2; ++k) begin_[k] = there.origin[k] - there.direction[k] * length;
+    }
+    /// From the ray's beginning to that of the one which comes by at `aside` of where it is now.
+    V3f origin_of(const V3f& aside) const {
+        const V2f at = frame_.across_of(aside);
+        const V3f origin = begin_[0] * at.dot(a_) + begin_[1] * at.dot(b_);
+        return origin.length2() < kInfinity ? origin : V3f(0, 0, 0);
+    }
+
+  private:
+    static constexpr float kLeastSine = 1e-3f;
+
+    AxisFrame<float> frame_;
+    V2f a_{0, 0}, b_{0, 0};  ///< how many steps to either ray beside a unit across it is
+    std::array<V3f, 2> begin_{V3f(0, 0, 0), V3f(0, 0, 0)};
+};
+
 }  // namespace
 
 V3f place_at(const ShadingGrid& grid, size_t vertex, float time01) {
@@ -94,11 +123,19 @@ void move_hit_to(const V3f& place, ShadingGrid& grid) {
 }
 
 void see_hit(ShadingGrid& grid) {
+    const float time = grid.hit_time;
     const MotionTurn turn =
-        grid.hit_time > 0 ? MotionTurn(*grid.primitive, static_cast<int>(grid.P.size()), {}) : MotionTurn();
+        time > 0 ? MotionTurn(*grid.primitive, static_cast<int>(grid.P.size()), {}) : MotionTurn();
+    const auto hit = static_cast<size_t>(grid.hit_vertex);
+    const V3f place = place_at(grid, hit, time);
+    const RaysBeside beside(grid.hit_ray, place - grid.hit_from);
     grid.I.resize(grid.vertex_count());
-    for (size_t i = 0; i < grid.vertex_count(); ++i)
-        grid.I.set(i, turn.back(place_at(grid, i, grid.hit_time) - grid.hit_from, grid.hit_time));
+    for (size_t i = 0; i < grid.vertex_count(); ++i) {
+        V3f way = place_at(grid, i, time) - grid.hit_from;
+        if (i != hit) way -= beside.origin_of(way - (place - grid.hit_from));
+        grid.I.set(i, turn.back(way, time));
+    }
+    for (size_t k = 0; k < 2; ++k) grid.hit_across[k] = turn.back(grid.hit_ray.origin[k], time);
 }
 
 Facing facing_for_sides(int sides, bool reverse_orientation) {

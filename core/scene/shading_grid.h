@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/grid.h"
+#include "core/ray_footprint.h"
 #include "core/scene/parameters.h"
 #include "core/scene/vertex_set.h"
 
@@ -83,7 +84,10 @@ struct ShadingGrid {
     uint8_t hit_level = 0;  ///< of what a ray has hit: RaySurfaceHit::level
     /// Of what a ray has hit, where shaders displace it first: the place on the micropolygon, at hit_time.
     std::optional<V3f> hit_place;
-    V3f hit_from{0, 0, 0};     ///< of what a ray has hit: from where it is seen, then
+    V3f hit_from{0, 0, 0};  ///< of what a ray has hit: from where it is seen, then
+    RayFootprint hit_ray;   ///< of what a ray has hit: of the ray, there and then
+    /// Of hit_ray: from there to where the rays beside it are, turned back as I is.
+    std::array<V3f, 2> hit_across{V3f(0, 0, 0), V3f(0, 0, 0)};
     RayMedium medium;          ///< of what a ray has hit: what it is seen through, if that has a shader
     bool own_colors = false;   ///< of what a ray has hit: stands for the primitive's own Cs and Os
     bool for_opacity = false;  ///< of what a ray has hit: Oi is wanted alone
@@ -131,8 +135,9 @@ V3f place_at(const ShadingGrid& grid, size_t vertex, float time01);
 /// time.
 void move_hit_to(const V3f& place, ShadingGrid& grid);
 
-/// Sets I of a hit's grid: the way from hit_from at its time, turned back to how the surface lies at shutter
-/// open.
+/// Sets I of a hit's grid, and hit_across. I is the way at the hit's time, turned back to how the surface
+/// lies at shutter open: from hit_from, and of other vertices from where the ray that would meet them comes
+/// by there, as far as the rays beside the hit's tell.
 void see_hit(ShadingGrid& grid);
 
 /// Which side of the grid's micropolygons can be hit, for Sides: which sign of projected area shows the

@@ -32,7 +32,6 @@ class RayWorld final : public RayScene {
     /// Of one ray.
     std::optional<RaySurfaceHit> closest(const RaySegment& ray, RayKind kind) const;
     std::optional<bool> blocked(const RaySegment& ray, RayKind kind) const;
-    bool has_levels() const override { return !rule_.is_simple(); }
     size_t rays_at_once() const override;
     int dice(const RaySurfaceHit& hit, ShadingGrid& grid) const override;
     float spacing(const V3f& P) const override;

@@ -174,8 +174,8 @@ V3f PointBasedCall::sky_over(size_t lane, PointBasedScratch& scratch) const {
         way.normalize();
     }
     const float width = spread_of(arguments_.cone_angle_at(lane), sky_of(lane).pixels_seen());
-    const std::vector<V3f> colors =
-        sky_in(run_, step_, arguments_.environment_map, arguments_.environment_space, scratch.ways, width);
+    const std::vector<V3f> colors = sky_in(run_, step_, arguments_.environment_map,
+                                           arguments_.environment_space, scratch.ways, std::array{width});
     for (size_t i = 0; i < colors.size(); ++i) sum += colors[i] * scratch.parts[i];
     return sum;
 }

@@ -35,7 +35,7 @@ void look_at(ShadingGrid& grid, int vertex, const V3f& normal, float distance, u
     grid.I.resize(grid.vertex_count());
     for (size_t i = 0; i < grid.vertex_count(); ++i) grid.I.set(i, grid.P.front().at(i) - eye);
     grid.hit_vertex = vertex, grid.hit_time = 0, grid.hit_level = 0;
-    grid.medium = RayMedium(), grid.for_opacity = false;
+    grid.medium = RayMedium(), grid.for_opacity = false, grid.hit_ray = RayFootprint();
     const RayAttributes& rays = grid.primitive->attributes->rays;
     grid.own_colors = rays.diffuse_hits == RayAttributes::HitMode::Primitive;
     const auto low = static_cast<uint32_t>(id), high = static_cast<uint32_t>(id >> 32);

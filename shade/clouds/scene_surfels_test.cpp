@@ -26,7 +26,6 @@ struct Sheet final : RayScene {
                  std::span<std::optional<RaySurfaceHit>>) const override {}
     void blocked(std::span<const RaySegment* const>, RayKind, std::span<std::optional<bool>>) const override {
     }
-    bool has_levels() const override { return false; }
     size_t rays_at_once() const override { return 0; }
     int dice(const RaySurfaceHit&, ShadingGrid&) const override { return 0; }
     float spacing(const V3f&) const override { return .01f; }

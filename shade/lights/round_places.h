@@ -42,7 +42,7 @@ inline SurfacePlace place_on(const LightMesh::Tube& tube, const V3d& seen_from, 
     // The area up to a part of the way grows with the square where the tube widens.
     const double at = x * (from + to) / (from + std::sqrt(from * from + (to * to - from * from) * x));
     const V3d away = seen_from - begin, across = away - axis * away.dot(axis);
-    const AxisFrame frame(axis);
+    const AxisFrame<double> frame(axis);
     const V3d side = across.length2() > 0 ? across.normalized() : frame.across;
     const double angle = 2 * kPi64 * y, rise = to - from, length = whole.length();
     const V3d out = side * portable::cos(angle) + axis.cross(side) * portable::sin(angle);

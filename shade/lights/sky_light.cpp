@@ -30,7 +30,7 @@ class DistantLight final : public LightSampler {
     }
 
   private:
-    AxisFrame frame_;
+    AxisFrame<double> frame_;
     double rim_;  ///< one_minus_cosine() of the angle
 };
 

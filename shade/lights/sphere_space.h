@@ -1,11 +1,11 @@
-/// Directions as seen from a point: frames, and solid angles in spaces that are not the camera's.
+/// Directions as seen from a point, and solid angles in spaces that are not the camera's.
 #pragma once
 
 #include <cmath>
 #include <numbers>
 
+#include "core/axis_frame.h"
 #include "core/math.h"
-#include "core/portable_math.h"
 
 namespace trapeze {
 
@@ -22,23 +22,6 @@ inline bool is_finite(const V3d& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// An axis with two directions across it, all of unit length and at right angles. It is continuous but at
-/// one axis [Duff17].
-struct AxisFrame {
-    explicit AxisFrame(const V3d& unit) : axis(unit) {
-        const double sign = std::copysign(1.0, axis.z), a = -1 / (sign + axis.z), b = axis.x * axis.y * a;
-        across = {1 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x};
-        along = {b, sign + axis.y * axis.y * a, -axis.y};
-    }
-    /// `turn`: a part of the whole.
-    V3d around(double sine, double cosine, double turn) const {
-        const double angle = 2 * kPi64 * turn;
-        return across * (sine * portable::cos(angle)) + along * (sine * portable::sin(angle)) + axis * cosine;
-    }
-
-    V3d axis, across, along;
-};
-
 /// 1 - cos of an angle whose cosine may be close to 1, from its squared sine.
 inline double one_minus_cosine(double sine2) {
     return sine2 / (1 + std::sqrt(1 - sine2));
@@ -46,7 +29,7 @@ inline double one_minus_cosine(double sine2) {
 
 /// A direction of a cone about the frame's axis, all solid angles alike; `rim` is one_minus_cosine() of the
 /// angle between the axis and the rim.
-inline V3d in_cone(const AxisFrame& frame, double rim, const V2f& square) {
+inline V3d in_cone(const AxisFrame<double>& frame, double rim, const V2f& square) {
     const double below = static_cast<double>(square.x) * rim, sine2 = below * (2 - below);
     return frame.around(std::sqrt(sine2), 1 - below, static_cast<double>(square.y));
 }

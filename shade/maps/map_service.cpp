@@ -278,8 +278,8 @@ void MapService::environment(Run& run, const Step& step, std::span<const Operand
 }
 
 /// The region around each direction has sides of `width`, at a right angle to it and to each other.
-void MapService::sky(std::string_view name, SourceLocation at, std::span<const V3f> directions, float width,
-                     std::span<V3f> colors) {
+void MapService::sky(std::string_view name, SourceLocation at, std::span<const V3f> directions,
+                     std::span<const float> widths, std::span<V3f> colors) {
     const Textures::Picture* picture = textures_.find(name, at, textures_.reading_of_lookup({}, true, at));
     constexpr size_t kTriples = 4;  // R, its changes, the colours
     const size_t count = directions.size(), plane = padded_size(count);
@@ -295,6 +295,7 @@ void MapService::sky(std::string_view name, SourceLocation at, std::span<const V
     };
     for (size_t i = 0; i < count; ++i) {
         const V3f& R = directions[i];
+        const float width = widths[widths.size() == count ? i : 0];
         const V3f across = R.cross(std::abs(R.z) < std::abs(R.x) ? V3f(0, 0, 1) : V3f(1, 0, 0)).normalized();
         set(0, i, R), set(1, i, across * width), set(2, i, R.cross(across) * width);
     }

@@ -14,8 +14,8 @@ class MapService : public vm::Maps {
     MapService(Textures& textures, const Scene& scene) : textures_(textures), scene_(scene) {}
 
     void look_up(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands) override;
-    void sky(std::string_view name, SourceLocation at, std::span<const V3f> directions, float width,
-             std::span<V3f> colors) override;
+    void sky(std::string_view name, SourceLocation at, std::span<const V3f> directions,
+             std::span<const float> widths, std::span<V3f> colors) override;
 
   private:
     const Textures::Picture* picture_of(vm::Run& run, const vm::Step& step, bool of_color);

@@ -147,7 +147,8 @@ void GatherCall::add_rays(const RayLane& asking, int first, int count) {
     if (colors_ || !asked_.empty())  // who asks for distances alone asks them of P
         ray.moved =
             RayAsker::inwards_of_face(asking, asker_.left_at(aim.P, asking, 0, arguments_.bias.at(lane)));
-    ray.segment.spread = spread_of(angle, arguments_.samples_at(lane));
+    ray.footprint.width = asker_.width_at(aim.P, asking);
+    ray.footprint.spread = ray.segment.spread = spread_of(angle, arguments_.samples_at(lane));
     for (int s = first; s < first + count; ++s) {
         ray.segment.time = motion.time(s);
         const V3f P = aim.P + motion.way(ray.segment.time);

@@ -64,6 +64,11 @@ V3f RayAsker::inwards_of_face(const RayLane& lane, const LeftSurface& left) {
     return length > most ? way * (most / length) : way;
 }
 
+float RayAsker::width_at(const V3f& P, const RayLane& lane) const {
+    const float side = service_.scene->spacing(P) * std::sqrt(std::max(attributes_.shading_rate, 0.0f));
+    return lane.grid && lane.grid->hit_vertex >= 0 ? std::max(side, lane.grid->hit_ray.widest()) : side;
+}
+
 RayMedium RayAsker::medium(const RayLane& lane, const V3f& direction) const {
     if (service_.volumes->empty() || !lane.grid) return {};
     const V3f outside = lane.grid->Ng.at(lane.lane - lane.first_of_grid);

@@ -60,6 +60,8 @@ class RayAsker {
     /// Of rays that tell what is seen from P: on edges of the face alone, and no farther than a quarter of a
     /// side of what rays meet.
     static V3f inwards_of_face(const RayLane& lane, const LeftSurface& left);
+    /// How wide the rays of a lane are where they begin.
+    float width_at(const V3f& P, const RayLane& lane) const;
     /// Whether rays meet the scene at times of their own.
     bool samples_motion() const { return attributes_.rays.sample_motion; }
     /// The depths of what rays of a kind hit.

@@ -10,8 +10,8 @@
 #include "core/random.h"
 #include "shade/rays/asking_lanes.h"
 #include "shade/rays/gather_call.h"
+#include "shade/rays/lane_footprint.h"
 #include "shade/rays/lane_motion.h"
-#include "shade/rays/lane_spread.h"
 #include "shade/rays/ray_aim.h"
 #include "shade/rays/ray_directions.h"
 #include "shade/rays/sample_base.h"
@@ -217,12 +217,12 @@ Task<RayCalls::LaneRays> RayCalls::rays_of(const Call& call, std::span<const Ray
     sent.followed = co_await follow(call, sent.rays);
     const RayArguments& arguments = call.arguments;
     if (!sent.followed || arguments.environment_map.empty() || lanes.empty()) co_return sent;
-    const size_t lane = lanes.front().lane;
-    const float width = spread_of(call.angle_at(lane), call.samples_at(lane));
     std::vector<V3f> directions;
-    for (const WalkedRay& ray : sent.rays) directions.push_back(ray.segment.direction);
+    std::vector<float> widths;
+    for (const WalkedRay& ray : sent.rays)
+        directions.push_back(ray.segment.direction), widths.push_back(ray.segment.spread);
     sent.sky = sky_in(call.run, call.step, arguments.environment_map, arguments.environment_space,
-                      std::move(directions), width);
+                      std::move(directions), widths);
     for (size_t i = 0; i < sent.rays.size(); ++i) {
         sent.sky[i] *= sent.rays[i].through;
         sent.rays[i].seen += sent.sky[i];
@@ -230,15 +230,23 @@ Task<RayCalls::LaneRays> RayCalls::rays_of(const Call& call, std::span<const Ray
     co_return sent;
 }
 
-/// How far a lane's rays go apart from those of its neighbours. Those that end at a point come together
-/// there.
-float RayCalls::spread_beside_of(const Call& call, const RayLane& asking, const RayAim& aim,
-                                 const LaneMotion& motion) const {
-    if (!asker_.service().scene->has_levels() || call.over_sky() || call.ends_at_point()) return 0;
-    const uint32_t* const mask = call.run.masks().all() ? nullptr : call.run.masks().current();
-    return spread_beside(asking, aim.direction, [&](size_t lane) {
-        return mask && !mask[lane] ? V3f(0, 0, 0) : call.aim_at(lane, motion, aim.time).direction;
-    });
+/// What each of a lane's rays stands for: its part of the cone that they fill; or what goes to where its
+/// neighbours' rays go, but wherever those end at a point nothing is asked of them.
+RayFootprint RayCalls::footprint_of(const Call& call, const RayLane& asking, const RayAim& aim,
+                                    const LaneMotion& motion) const {
+    const float angle = call.angle_at(asking.lane);
+    RayFootprint ray;
+    if (call.over_sky()) {
+        ray.width = asker_.width_at(aim.P, asking);
+    } else if (!call.ends_at_point()) {
+        const uint32_t* const mask = call.run.masks().all() ? nullptr : call.run.masks().current();
+        ray = trapeze::footprint_of(asking, aim, call.run.context().footprints, [&](size_t lane) {
+            return mask && !mask[lane] ? std::nullopt : std::optional(call.aim_at(lane, motion, aim.time));
+        });
+        if (!ray.is_known()) ray.width = asker_.width_at(aim.P, asking);
+    }
+    ray.spread = spread_of(angle, call.samples_at(asking.lane));
+    return ray;
 }
 
 /// A lane's rays; none where it does not know where to.
@@ -265,7 +273,8 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<Wal
         ray.moved = call.is_exact() ? RayAsker::inwards_of_face(asking, ray.segment.left)
                                     : RayAsker::inwards(asking, ray.segment.left);
     const int samples = call.samples_at(lane);
-    ray.segment.spread = std::max(spread_of(angle, samples), spread_beside_of(call, asking, aim, motion));
+    ray.footprint = footprint_of(call, asking, aim, motion);
+    ray.segment.spread = ray.footprint.fastest();
     const RaySequence sequence(asking.seed, samples);
     const SampleBase base(call.run);
     const bool by_cosine = call.over_sky() && !arguments.uniform_distribution;
@@ -329,8 +338,9 @@ void RayCalls::look_at_sky(const Call& call, const Operand& out, std::span<const
         for (int s = 0; s < kDirections; ++s)
             directions.push_back(leads ? cone.by_cosine(sequence[s]) : V3f(0, 0, 0));
     }
-    const std::vector<V3f> colors = sky_in(call.run, call.step, call.arguments.map(), "",
-                                           std::move(directions), std::sqrt(kTurn / 2 / kDirections));
+    const std::vector<V3f> colors =
+        sky_in(call.run, call.step, call.arguments.map(), "", std::move(directions),
+               std::array{std::sqrt(kTurn / 2 / kDirections)});
     for (size_t i = 0; i < lanes.size(); ++i) {
         V3f sum(0, 0, 0);
         for (size_t s = 0; s < kDirections; ++s) sum += colors[i * kDirections + s];

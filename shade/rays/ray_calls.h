@@ -41,8 +41,8 @@ class RayCalls : public vm::Rays {
     static void tell(const Call& call, const vm::Operand& out, std::span<const RayLane> lanes,
                      const LaneRays& sent, const V3f& nothing);
     void add_rays(const Call& call, const RayLane& lane, std::vector<WalkedRay>& rays) const;
-    float spread_beside_of(const Call& call, const RayLane& asking, const RayAim& aim,
-                           const LaneMotion& motion) const;
+    RayFootprint footprint_of(const Call& call, const RayLane& asking, const RayAim& aim,
+                              const LaneMotion& motion) const;
     Task<bool> follow(const Call& call, std::span<WalkedRay> rays) const;
     void look_at_sky(const Call& call, const vm::Operand& out, std::span<const RayLane> lanes) const;
 

@@ -2,6 +2,7 @@
 /// different from point to point, and the same for any order of work [decision 0019].
 #pragma once
 
+#include "core/axis_frame.h"
 #include "core/math.h"
 #include "core/ray_sequence.h"
 
@@ -19,13 +20,11 @@ class Cone {
     V3f by_cosine(const V2f& square) const;
 
     /// Two directions across the axis, at right angles.
-    const V3f& across() const { return across_; }
-    const V3f& along() const { return along_; }
+    const V3f& across() const { return frame_.across; }
+    const V3f& along() const { return frame_.along; }
 
   private:
-    V3f around(float sine, float cosine, float turn) const;
-
-    V3f axis_, across_, along_;
+    AxisFrame<float> frame_;
     float least_cosine_;
 };
 

@@ -171,6 +171,7 @@ ShadingGrid& RayWalk::grid_of(Met& met, size_t number) {
     grid.medium = medium_of(met);
     const bool in_medium = grid.medium != RayMedium();
     grid.hit_from = in_medium ? ray.origin + ray.direction * met.ray->medium_from : ray.origin;
+    grid.hit_ray = met.ray->footprint.behind(met.hit.distance);
     see_hit(grid);
     grid.seed = met.ray->seed;
     grid.answers.clear();

@@ -25,6 +25,7 @@ namespace trapeze {
 /// A ray and what has come of it.
 struct WalkedRay {
     RaySegment segment;
+    RayFootprint footprint;
     /// How far the segment's origin lies from where who asks is told that the ray begins: within the edge
     /// that it stands on.
     V3f moved{0, 0, 0};

@@ -5,14 +5,14 @@
 namespace trapeze {
 
 std::vector<V3f> sky_in(vm::Run& run, const vm::Step& step, std::string_view map, const std::string& space,
-                        std::vector<V3f> directions, float width) {
+                        std::vector<V3f> directions, std::span<const float> widths) {
     std::vector<V3f> colors(directions.size(), V3f(0, 0, 0));
     const vm::Context& context = run.context();
     if (!context.maps || map.empty()) return colors;
     if (!space.empty() && context.spaces)
         if (const std::optional<M44f> to = context.spaces->matrix("current", space))
             for (V3f& direction : directions) to->multDirMatrix(V3f(direction), direction);
-    context.maps->sky(map, step.at, directions, width, colors);
+    context.maps->sky(map, step.at, directions, widths, colors);
     return colors;
 }
 

@@ -83,7 +83,8 @@ class CountingMaps : public Maps {
                     100 * Run::at(operands[2], 0, i) + 10 * static_cast<float>(step.immediate) +
                     Run::at(operands[3], 0, i) + static_cast<float>(k);
     }
-    void sky(std::string_view, SourceLocation, std::span<const V3f>, float, std::span<V3f>) override {}
+    void sky(std::string_view, SourceLocation, std::span<const V3f>, std::span<const float>,
+             std::span<V3f>) override {}
 };
 
 void check(const BuiltinCase& c, Way way, bool optimised) {

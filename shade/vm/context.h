@@ -49,10 +49,10 @@ class Maps {
     virtual ~Maps() = default;
     /// One of Op::Texture, Environment, Shadow, Bump or TextureInfo.
     virtual void look_up(Run& run, const Step& step, std::span<const Operand> operands) = 0;
-    /// Colours of an environment map in some directions, each averaged over about `width` (radians). Black
-    /// where it cannot be read.
-    virtual void sky(std::string_view name, SourceLocation at, std::span<const V3f> directions, float width,
-                     std::span<V3f> colors) = 0;
+    /// Colours of an environment map in some directions, each averaged over about its width, or over the one
+    /// that there is (radians). Black where it cannot be read.
+    virtual void sky(std::string_view name, SourceLocation at, std::span<const V3f> directions,
+                     std::span<const float> widths, std::span<V3f> colors) = 0;
 };
 
 /// Point clouds: files of discs that bake3d() writes and texture3d(), occlusion() and indirectdiffuse() read

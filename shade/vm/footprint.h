@@ -14,6 +14,9 @@ struct Footprint {
     const float *du = nullptr, *dv = nullptr;  ///< how far u and v change over it: RISpec's
     /// How many times the micropolygon's area a rectangle of du and dv has.
     const float* widening = nullptr;
+    /// What its axes are of the micropolygon's steps to the next vertices: a is uu u + uv v, and b uv u + vv
+    /// v.
+    const float *uu = nullptr, *uv = nullptr, *vv = nullptr;
 };
 
 /// The footprints of a batch, computed when the first operation asks for them: most shaders never do. Planes

@@ -38,12 +38,14 @@ TEST(RayShaders, ReflectorsTrace) {
     EXPECT_NEAR(shine("mirror\" \"Ks\" 0", wall("-3")), 0.5, 1e-3);
     EXPECT_NEAR(shine("shinymetal\" \"Ks\" 0 \"Ka\" 0 \"texturename\" \"raytrace\"", wall("-3")), 0.5, 1e-3);
     EXPECT_NEAR(shine("mirror\" \"Ks\" 0 \"texturename\" \"raytrace\"", wall("-3")), 0.5, 1e-3);
+    EXPECT_NEAR(shine("metal\" \"Ks\" 0 \"Ka\" 0 \"Kr\" .5", wall("-3")), 0.25, 1e-3);
     // Without a map it is metal, and asks for no rays: nobody is told that there are none to meet.
     EXPECT_EQ(shine("shinymetal\" \"Ks\" 0 \"Ka\" 0", wall("-3")), 0);
+    EXPECT_EQ(shine("metal\" \"Ks\" 0 \"Ka\" 0", wall("-3")), 0);
     // A half plane: under a cone its edge is half as bright.
     const std::string half = "Polygon \"P\" [0 -99 -3 99 -99 -3 99 99 -3 0 99 -3] ";
-    for (const char* surface :
-         {"mirror\" \"Ks\" 0", "shinymetal\" \"Ks\" 0 \"Ka\" 0 \"texturename\" \"raytrace\""}) {
+    for (const char* surface : {"mirror\" \"Ks\" 0", "metal\" \"Ks\" 0 \"Ka\" 0 \"Kr\" 1",
+                                "shinymetal\" \"Ks\" 0 \"Ka\" 0 \"texturename\" \"raytrace\""}) {
         c.things = things + half;
         c.asks = std::string("Surface \"") + surface + " \"samples\" 64 \"blur\" .2 " + kAsker;
         const std::vector<Pixel> all = pixels(c.render("Ci = 0;"));
@@ -159,7 +161,8 @@ TEST(RayShaders, ShadowsOfNoLightAreWarnedOf) {
 /// In a room of mirrors each bounce behind the first takes one ray, whatever "samples" says.
 TEST(RayShaders, TakeTheirSamplesAtTheFirstBounceAlone) {
     for (const std::string surface :
-         {"\"mirror\"", "\"glass\"", "\"shinymetal\" \"texturename\" [\"raytrace\"]"}) {
+         {"\"mirror\"", "\"glass\"", "\"shinymetal\" \"texturename\" [\"raytrace\"]",
+          "\"metal\" \"Kr\" [1]"}) {
         const auto rays_of = [&](int depth) {
             WorkFolder folder;
             folder.write(

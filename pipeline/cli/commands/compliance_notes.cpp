@@ -85,7 +85,7 @@ constexpr Capability kCapabilities[] = {
      "on what the camera sees through a surface, Exterior not on rays that hit nothing."},
     {"Ray Tracing", "supported",
      "trace(), transmission() and visibility() meet all that Attribute \"visibility\" lets their rays see, at "
-     "shutter open or, with Attribute \"trace\" \"samplemotion\", while it is open; gather() tells of hits. They are shaded with their own derivatives. The geometry is diced as "
+     "shutter open or, with Attribute \"trace\" \"samplemotion\", while it is open; gather() tells of hits. They are shaded with their own derivatives, and filtered over the width of the ray (differentials). The geometry is diced as "
      "finely as a pixel is at its distance from the eye. Solids are cut, clipping planes cut the camera's view alone. A "
      "ray looks through at most 4096 transparent surfaces."},
     {"Global Illumination", "supported with limits",
