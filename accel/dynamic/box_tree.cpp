@@ -28,8 +28,24 @@ void BoxTree::build(const FrameBoxes& objects, std::vector<uint32_t> members) {
     const TopTopology topology = topology_over(objects, members_);
     root_ = topology.root;
     nodes_.resize(topology.inner.size());
+    for (size_t i = 0; i < nodes_.size(); ++i) nodes_[i].child = topology.inner[i];
+    bound(objects);
+}
+
+void BoxTree::take_out(const FrameBoxes& objects, const std::vector<uint8_t>& leave) {
+    size_t left = 0;
+    for (uint32_t& member : members_) {
+        if (member != kNone && leave[member]) member = kNone;
+        left += member != kNone;
+    }
+    if (left == 0) members_.clear(), nodes_.clear();
+    bound(objects);
+}
+
+/// Children come after their parents.
+void BoxTree::bound(const FrameBoxes& objects) {
     for (size_t i = nodes_.size(); i-- > 0;) {
-        const auto& [first, second] = nodes_[i].child = topology.inner[i];
+        const auto& [first, second] = nodes_[i].child;
         nodes_[i].box = joined(box_of(objects, first), box_of(objects, second));
     }
 }

@@ -21,6 +21,9 @@ class BoxTree {
   public:
     /// Of some objects, by number. Without any there are no nodes.
     void build(const FrameBoxes& objects, std::vector<uint32_t> members);
+    /// Takes out the objects that `leave` has a 1 for, by number: their leaves are empty, and nodes are
+    /// bounded anew. The tree is the worse for it, by steps through nodes that have one side, but not built.
+    void take_out(const FrameBoxes& objects, const std::vector<uint8_t>& leave);
 
     /// Shows the policy the hits of a ray, near ones first as far as boxes tell; `objects` are those of the
     /// build.
@@ -36,11 +39,16 @@ class BoxTree {
         std::array<TopLink, 2> child;
     };
 
-    const KeyBox& box_of(const FrameBoxes& objects, TopLink link) const {
-        return link.is_leaf() ? objects.boxes[members_[link.index()]] : nodes_[link.index()].box;
-    }
+    static constexpr uint32_t kNone = ~uint32_t{0};
 
-    std::vector<uint32_t> members_;  ///< leaf -> object
+    KeyBox box_of(const FrameBoxes& objects, TopLink link) const {
+        if (!link.is_leaf()) return nodes_[link.index()].box;
+        const uint32_t member = members_[link.index()];
+        return member == kNone ? empty_box() : objects.boxes[member];
+    }
+    void bound(const FrameBoxes& objects);
+
+    std::vector<uint32_t> members_;  ///< leaf -> object, or kNone
     std::vector<Node> nodes_;        ///< those with children, parents first
     TopLink root_;
 };

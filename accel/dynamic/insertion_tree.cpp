@@ -108,10 +108,11 @@ void InsertionTree::move(uint32_t object, const KeyBox& box) {
     // Above `from` the object has been counted all along; only boxes may be too large there. Read before the
     // insertion, which may put a new node above `from`.
     const uint32_t above_that = nodes_[from].parent;
-    if (options_.reinsertion == InsertionOptions::Reinsertion::Rebuilt)
-        marked_.push_back(pair_up(object, from));
-    else
-        insert(object, from);
+    if (options_.reinsertion == InsertionOptions::Reinsertion::Rebuilt) {
+        marked_.push_back(pair_up(object, from));  // until it is built anew, boxes above may be too large
+        return;
+    }
+    insert(object, from);
     tighten_above(above_that);
 }
 
@@ -218,7 +219,9 @@ void InsertionTree::rebuild_marked() {
         bool is_topmost = true;
         for (uint32_t above = nodes_[node].parent; above != kNone && is_topmost; above = nodes_[above].parent)
             is_topmost = !is_marked[above];
-        if (is_topmost) rebuild_below(node);
+        if (!is_topmost) continue;
+        rebuild_below(node);
+        tighten_above(nodes_[node].parent);
     }
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
+#include <utility>
 
 namespace trapeze {
 namespace {
@@ -19,7 +21,10 @@ void TwoLevelTree::build(const Grids& grids) {
     objects_.read(grids);
     moves_.assign(objects_.boxes.size(), 0);
     moving_.clear();
-    more_move_ = true;
+    more_move_ = false;
+    std::vector<uint32_t> all(moves_.size());
+    std::iota(all.begin(), all.end(), 0u);
+    still_.build(objects_, std::move(all));
     place();
 }
 
@@ -31,13 +36,7 @@ void TwoLevelTree::note_moved(uint32_t object) {
 }
 
 void TwoLevelTree::place() {
-    if (more_move_) {
-        std::vector<uint32_t> still;
-        for (uint32_t object = 0; object < moves_.size(); ++object)
-            if (!moves_[object]) still.push_back(object);
-        still_.build(objects_, std::move(still));
-        more_move_ = false;
-    }
+    if (std::exchange(more_move_, false)) still_.take_out(objects_, moves_);
     loose_.build(options_for(moving_.size()), objects_, moving_);
 }
 

@@ -1,7 +1,7 @@
-/// Two trees: one of what has moved, filled anew in each frame, and one of all else, which stays until more
-/// of it moves. What moves in a large scene that does not is sorted in a space of its own size: the report on
-/// updated trees proposes two levels where the loose hierarchy fails, the "teapot in the stadium"
-/// [DynBvh06 sec. 4 and 5].
+/// Two trees: one of what has moved, filled anew in each frame, and one of all else, which stays but for what
+/// is taken out of it when it begins to move. What moves in a large scene that does not is sorted in a space
+/// of its own size: the report on updated trees proposes two levels where the loose hierarchy fails, the
+/// "teapot in the stadium" [DynBvh06 sec. 4 and 5].
 #pragma once
 
 #include <cstdint>
@@ -46,7 +46,7 @@ class TwoLevelTree {
     FrameBoxes objects_;
     std::vector<uint8_t> moves_;    ///< of objects: in moving_
     std::vector<uint32_t> moving_;  ///< objects
-    bool more_move_ = true;         ///< than when still_ was built
+    bool more_move_ = false;        ///< than still_ knows
     BoxTree still_;
     LooseNodes loose_;
 };
