@@ -98,6 +98,10 @@ void InsertionTree::move(uint32_t object, const KeyBox& box) {
     }
     const uint32_t above = detach(object);
     nodes_[object].box = box;
+    if (options_.reinsertion == InsertionOptions::Reinsertion::Rebuilt) {
+        waiting_.push_back({object, climb(above, box, 1)});
+        return;
+    }
     if (above == kNone) {  // there were two
         insert(object, root_);
         return;
@@ -108,10 +112,6 @@ void InsertionTree::move(uint32_t object, const KeyBox& box) {
     // Above `from` the object has been counted all along; only boxes may be too large there. Read before the
     // insertion, which may put a new node above `from`.
     const uint32_t above_that = nodes_[from].parent;
-    if (options_.reinsertion == InsertionOptions::Reinsertion::Rebuilt) {
-        marked_.push_back(pair_up(object, from));  // until it is built anew, boxes above may be too large
-        return;
-    }
     insert(object, from);
     tighten_above(above_that);
 }
@@ -126,6 +126,7 @@ uint32_t InsertionTree::detach(uint32_t node) {
     replace_child(above, parent, sibling);
     nodes_[node].parent = kNone;
     nodes_[parent] = {};
+    nodes_[parent].parent = above;  // where what waits there goes (rebuild_marked())
     free_.push_back(parent);
     return above;
 }
@@ -205,29 +206,35 @@ uint32_t InsertionTree::pair_up(uint32_t inserted, uint32_t at) {
     return pair;
 }
 
-/// Below those that no other marked node is above. Nodes that have become free since they were marked have no
-/// children.
+/// Builds anew below nodes at which objects wait, but for those that are below another.
 void InsertionTree::rebuild_marked() {
-    if (marked_.empty()) return;
+    if (waiting_.empty()) return;
     std::vector<bool> is_marked(nodes_.size(), false);
-    for (const uint32_t node : marked_) is_marked[node] = nodes_[node].child[0] != kNone;
-    std::vector<uint32_t> marked = std::exchange(marked_, {});
-    std::ranges::sort(marked);
-    marked.erase(std::unique(marked.begin(), marked.end()), marked.end());
-    for (const uint32_t node : marked) {
-        if (!is_marked[node]) continue;
-        bool is_topmost = true;
-        for (uint32_t above = nodes_[node].parent; above != kNone && is_topmost; above = nodes_[above].parent)
-            is_topmost = !is_marked[above];
-        if (!is_topmost) continue;
-        rebuild_below(node);
-        tighten_above(nodes_[node].parent);
+    for (Waiting& one : waiting_) {
+        // A node that has become free has no children; those that waited there wait above it.
+        while (one.at != kNone && !is_leaf(one.at) && nodes_[one.at].child[0] == kNone)
+            one.at = nodes_[one.at].parent;
+        if (one.at == kNone) one.at = root_;
+        is_marked[one.at] = true;
     }
+    for (Waiting& one : waiting_)
+        for (uint32_t above = nodes_[one.at].parent; above != kNone; above = nodes_[above].parent)
+            if (is_marked[above]) one.at = above;
+    std::ranges::sort(waiting_, {}, [](const Waiting& one) { return std::pair(one.at, one.object); });
+    for (size_t first = 0, end = 0; first < waiting_.size(); first = end) {
+        const uint32_t top = waiting_[first].at;
+        std::vector<uint32_t> objects;
+        for (; end < waiting_.size() && waiting_[end].at == top; ++end)
+            objects.push_back(waiting_[end].object);
+        rebuild_below(top, std::move(objects));
+    }
+    waiting_.clear();
 }
 
-/// Builds all below an inner node anew, of the nodes that it has; it stays the topmost of them.
-void InsertionTree::rebuild_below(uint32_t top) {
-    std::vector<uint32_t> inner, objects, todo{top};
+/// Builds a node and all below it anew, together with objects that are in no tree.
+void InsertionTree::rebuild_below(uint32_t top, std::vector<uint32_t> objects) {
+    std::vector<uint32_t> inner, todo{top};
+    const uint32_t above = nodes_[top].parent;
     while (!todo.empty()) {
         const uint32_t at = todo.back();
         todo.pop_back();
@@ -238,6 +245,7 @@ void InsertionTree::rebuild_below(uint32_t top) {
         inner.push_back(at);
         for (const uint32_t child : nodes_[at].child) todo.push_back(child);
     }
+    while (inner.size() + 1 < objects.size()) inner.push_back(free_.back()), free_.pop_back();
     rebuilt_ += objects.size();
     // In the order of their numbers, so that the tree depends on nothing else.
     std::ranges::sort(objects);
@@ -256,6 +264,10 @@ void InsertionTree::rebuild_below(uint32_t top) {
         node.box = box_of_children(node);
         node.first_quality = quality(node);
     }
+    const uint32_t new_top = node_of(topology.root);
+    nodes_[new_top].parent = above;
+    replace_child(above, top, new_top);
+    tighten_above(above);
 }
 
 /// Makes the boxes of ancestors smaller, as far as anything changes. A box that stays as it is ends the
@@ -318,7 +330,8 @@ double InsertionTree::expected_visits() const {
 BuildStats InsertionTree::stats() const {
     BuildStats stats;
     stats.tree_bytes = sizeof(*this) + objects_.bytes() + nodes_.capacity() * sizeof(Node) +
-                       (free_.capacity() + touched_.capacity() + marked_.capacity()) * sizeof(uint32_t);
+                       (free_.capacity() + touched_.capacity()) * sizeof(uint32_t) +
+                       waiting_.capacity() * sizeof(Waiting);
     stats.tree_nodes = nodes_.size();
     stats.tree_leaves = objects_.boxes.size();
     return stats;

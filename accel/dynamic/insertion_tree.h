@@ -85,6 +85,11 @@ class InsertionTree {
         float first_quality = 0;
     };
 
+    /// An object that is in no tree until all below a node is built anew.
+    struct Waiting {
+        uint32_t object, at;
+    };
+
     bool is_leaf(uint32_t node) const { return node < objects_.boxes.size(); }
     /// [DynBvh06 eq. 1]
     float quality(const Node& node) const {
@@ -105,7 +110,7 @@ class InsertionTree {
     uint32_t pair_up(uint32_t inserted, uint32_t at);
     void finish_update();
     void rebuild_marked();
-    void rebuild_below(uint32_t top);
+    void rebuild_below(uint32_t top, std::vector<uint32_t> objects);
     void tighten_above(uint32_t node);
     void replace_child(uint32_t parent, uint32_t old_child, uint32_t new_child);
     KeyBox box_of_children(const Node& node) const {
@@ -124,8 +129,7 @@ class InsertionTree {
     std::vector<uint32_t> touched_;  ///< inner nodes whose quality has changed, some of them several times
     uint32_t root_ = kNone;
     bool inserting_all_ = false;
-    std::vector<uint32_t>
-        marked_;  ///< inner nodes below which the tree is to be built anew, or that are free
+    std::vector<Waiting> waiting_;
     uint64_t moved_ = 0, dissolved_ = 0, rebuilt_ = 0;
 };
 
