@@ -190,9 +190,8 @@ void InsertionTree::insert(uint32_t inserted, uint32_t from) {
     pair_up(inserted, at);
 }
 
-/// A free node, which is returned, becomes the parent of a node and of one that is in no tree, in the place
-/// of the former.
-uint32_t InsertionTree::pair_up(uint32_t inserted, uint32_t at) {
+/// A free node becomes the parent of a node and of one that is in no tree, in the place of the former.
+void InsertionTree::pair_up(uint32_t inserted, uint32_t at) {
     const uint32_t pair = free_.back();
     free_.pop_back();
     Node& node = nodes_[pair];
@@ -203,7 +202,6 @@ uint32_t InsertionTree::pair_up(uint32_t inserted, uint32_t at) {
     node.child = {at, inserted};
     replace_child(node.parent, at, pair);
     nodes_[at].parent = nodes_[inserted].parent = pair;
-    return pair;
 }
 
 /// Builds anew below nodes at which objects wait, but for those that are below another.

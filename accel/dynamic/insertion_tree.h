@@ -107,7 +107,7 @@ class InsertionTree {
     uint32_t climb(uint32_t from, const KeyBox& box, uint32_t objects);
     uint32_t best_sibling(const KeyBox& box, uint32_t from) const;
     void insert(uint32_t node, uint32_t from);
-    uint32_t pair_up(uint32_t inserted, uint32_t at);
+    void pair_up(uint32_t inserted, uint32_t at);
     void finish_update();
     void rebuild_marked();
     void rebuild_below(uint32_t top, std::vector<uint32_t> objects);

@@ -98,8 +98,8 @@ struct MovingTree::LastFrame {
     std::vector<Box3f> at_close;  ///< of leaves, by their lists, as the shutter closed
     std::vector<uint32_t> times;  ///< by micropolygon: its references
 
-    /// Sets boxes of what a leaf has of a micropolygon; false, with nothing set, where it has all of it, or
-    /// where it was nowhere that can be bounded.
+    /// Sets boxes of what a leaf has of a micropolygon; false, with nothing set, where that was nowhere that
+    /// can be bounded.
     bool boxes_of(const Grid& now, const MicropolygonId& id, size_t list,
                   MovingTreeOptions::Clipping clipping, std::span<const Box3f> whole, KeyBoxes& boxes) const;
 };
