@@ -178,17 +178,18 @@ template <class D, class V>
 HWY_INLINE WeightLanes<V> hit_weights(D d, const QuadLanes<V>& q) {
     const WeightLanes<V> w = weight_lanes(d, q, side_lanes(q));
     const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-    const V sum = hn::Add(hn::Add(w.w00, w.w10), hn::Add(w.w01, w.w11));
-    const auto share = [&](V weight) HWY_ATTR {
-        const V normalised = hn::Div(weight, sum);
+    const V scale = hn::Div(one, hn::Add(hn::Add(w.w00, w.w10), hn::Add(w.w01, w.w11)));
+    const auto clamped = [&](V weight) HWY_ATTR {
+        const V normalised = hn::Mul(weight, scale);
         return hn::IfThenElseZero(hn::Gt(normalised, zero),
                                   predicate_lanes::min_of(normalised, one));  // also takes NaN to 0
     };
-    const V s00 = share(w.w00), s10 = share(w.w10), s01 = share(w.w01), s11 = share(w.w11);
+    const V s00 = clamped(w.w00), s10 = clamped(w.w10), s01 = clamped(w.w01), s11 = clamped(w.w11);
     const V total = hn::Add(hn::Add(hn::Add(s00, s10), s01), s11);
     const auto some = hn::Gt(total, zero);
-    return {hn::IfThenElse(some, hn::Div(s00, total), one), hn::IfThenElseZero(some, hn::Div(s10, total)),
-            hn::IfThenElseZero(some, hn::Div(s01, total)), hn::IfThenElseZero(some, hn::Div(s11, total))};
+    const V share = hn::Div(one, total);
+    return {hn::IfThenElse(some, hn::Mul(s00, share), one), hn::IfThenElseZero(some, hn::Mul(s10, share)),
+            hn::IfThenElseZero(some, hn::Mul(s01, share)), hn::IfThenElseZero(some, hn::Mul(s11, share))};
 }
 
 /// Lanes of position_at().

@@ -147,15 +147,16 @@ inline bool hit_micropolygon(const AxisRay& ray, const Quad& q, Facing facing, f
 inline QuadWeights hit_weights(const AxisRay& ray, const Quad& q) {
     namespace d = predicate_detail;
     QuadWeights w = d::weights(d::edges_of(ray, q));
-    const float sum = (w.w[0] + w.w[1]) + (w.w[2] + w.w[3]);
+    const float scale = 1 / ((w.w[0] + w.w[1]) + (w.w[2] + w.w[3]));
     float total = 0;
     for (float& weight : w.w) {
-        const float normalised = weight / sum;
+        const float normalised = weight * scale;
         weight = normalised > 0 ? std::min(normalised, 1.0f) : 0.0f;  // also takes NaN to 0
         total += weight;
     }
     if (!(total > 0)) return {{1, 0, 0, 0}};
-    for (float& weight : w.w) weight /= total;
+    const float share = 1 / total;
+    for (float& weight : w.w) weight *= share;
     return w;
 }
 

@@ -37,7 +37,7 @@ const std::map<std::string, Names> kWings = {
     {"composite/colors/opencolorio", {"composite/colors"}},
     {"composite/displays", {"composite", "composite/mattes"}},
     {"composite/displays/openimageio", {"composite/displays"}},
-    {"composite/film", {"composite", "composite/filters", "composite/mattes"}},
+    {"composite/film", {"composite", "composite/filters", "composite/layers", "composite/mattes"}},
     {"composite/filters", {"composite"}},
     {"composite/merge", {"composite", "composite/displays"}},
     {"core/files", {"core"}},

@@ -64,7 +64,7 @@ GridSummary summarise_along_axes(const Grid& grid) {
         vertices_in_frame(grid, key, Frame{}, p);
         extend_extremes(grid.shape, p, extremes);
     }
-    // Written so that a NaN makes the grid unboundable.
+    // Positions are finite numbers: pack_grid() sees to it.
     const bool boundable = extremes.absolute_max <= kBoundableCoordinate;
     summary.absolute_max = boundable ? extremes.absolute_max : std::numeric_limits<float>::infinity();
     summary.quad_extent = extremes.quad_extent;

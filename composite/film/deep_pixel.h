@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "composite/deep_sample.h"
-#include "composite/film/seen_layers.h"
+#include "composite/layers/seen_layers.h"
 
 namespace trapeze {
 

@@ -5,9 +5,8 @@
 
 #include "composite/film/film_part.h"
 #include "composite/film/gathered_samples.h"
-#include "composite/film/pixel_depth.h"
-#include "composite/film/pixel_sums.h"
-#include "composite/film/pixel_variables.h"
+#include "composite/film/pixel_samples.h"
+#include "composite/film/pixel_summer.h"
 #include "composite/film/tile_sums.h"
 #include "composite/filters/exposure.h"
 #include "core/scene/deep_pictures.h"
@@ -38,9 +37,7 @@ bool wants_ids(const Options& options) {
 }  // namespace
 
 Film::Film(const RenderContext& context, bool record_ids, bool leave_gamma)
-    : aovs_(aov_layout(context.scene->options)),
-      kernel_(context.scene->options.filter, context.diagnostics),
-      depth_filter_(depth_filter_of(context)) {
+    : aovs_(aov_layout(context.scene->options)), kernel_(context.scene->options.filter, context.diagnostics) {
     const Options& options = context.scene->options;
     gain_ = options.exposure_gain;
     inverse_gamma_ = leave_gamma ? 1.0f : inverse_of_gamma(options.exposure_gamma);
@@ -48,9 +45,12 @@ Film::Film(const RenderContext& context, bool record_ids, bool leave_gamma)
     if (const std::vector<MatteLayer> layers = matte_layers(options); !layers.empty()) {
         matte_keys_ = MatteKeys(*context.scene, layers, *context.diagnostics);
         matte_kernel_.emplace(matte_filter(options.filter));
-        layer_rules_.keys = &matte_keys_, layer_rules_.kernel = &*matte_kernel_;
+        rules_.layers.keys = &matte_keys_, rules_.layers.kernel = &*matte_kernel_;
     }
-    layer_rules_.deep_tolerance = deep_tolerance(options);
+    rules_.layers.deep_tolerance = deep_tolerance(options);
+    rules_.aovs = &aovs_;
+    rules_.depth_filter = depth_filter_of(context);
+    rules_.wants_primitives = record_ids || wants_ids(options);
 
     image_.width = context.camera.width, image_.height = context.camera.height;
     image_.window = context.camera.crop;
@@ -62,8 +62,8 @@ Film::Film(const RenderContext& context, bool record_ids, bool leave_gamma)
     image_.aovs.resize(static_cast<size_t>(aovs_.channel_count) * count);
     image_.matte_floats = kMatteFloats * static_cast<int>(matte_keys_.layer_count());
     image_.mattes.resize(static_cast<size_t>(image_.matte_floats) * count);
-    if (layer_rules_.deep_tolerance) image_.deep.resize(count);
-    if (record_ids || wants_ids(options)) image_.id.assign(count, kNoPrimitive);
+    if (rules_.layers.deep_tolerance) image_.deep.resize(count);
+    if (rules_.wants_primitives) image_.id.assign(count, kNoPrimitive);
 
     const PixelRect sampled = intersection(sampled_pixels(context.camera, options),
                                            grown(image_.window, kernel_.reach_x(), kernel_.reach_y()));
@@ -81,25 +81,17 @@ void Film::add(const SampleTile& samples, const LayerStack& stack) {
 }
 
 void Film::begin_stack(size_t sample_count, LayerStack& stack) const {
-    stack.begin(sample_count, aovs_, depth_filter_ == DepthFilter::Midpoint, layer_rules_.want_layers());
+    stack.begin(sample_count, aovs_, rules_.depth_filter == DepthFilter::Midpoint,
+                rules_.layers.want_layers());
 }
 
 void Film::add(const GatheredSamples& gathered) {
     add_tiles(gathered.pixels(), [&](const PixelRect& pixels) {
         auto sums = make_sums(pixels, gathered.shows_something());
         gathered.sum(pixels, kernel_, *sums,
-                     [this](int px, int py, const GatheredSamples::PixelRecord& record) {
-                         record_pixel(px, py, record.depth, record.primitive);
-                         if (record.variables) record_variables(px, py, *record.variables);
-                         if (record.layers && layer_rules_.deep_tolerance)
-                             record_deep(px, py, record.layers->deep_samples());
-                     });
+                     [this](int px, int py, const PixelRecord& record) { record_pixel(px, py, record); });
         return sums;
     });
-}
-
-GatherRules Film::gather_rules() const {
-    return {&aovs_, depth_filter_, layer_rules_};
 }
 
 void Film::add_part(const FilmPart& whole) {
@@ -107,8 +99,6 @@ void Film::add_part(const FilmPart& whole) {
         const FilmPart part{pixels, whole.samples, whole.hits, whole.grids, whole.stack};
         auto sums = make_sums(pixels, part.hits_anything());
         accumulate(part, *sums);
-        if (sums->channels(Sum::Aov) > 0) accumulate_aovs(part, *sums);
-        if (layer_rules_.want_layers()) accumulate_layers(part, *sums);
         return sums;
     });
 }
@@ -142,121 +132,19 @@ void Film::add_tile(int index, const PixelRect& pixels, const SumsOf& sums_of) {
     });
 }
 
-/// Adds weights and colours of a tile's samples: all of a pixel together where that pays; else the usual
-/// filters' sizes are compiled in.
+/// Adds what a tile's samples see to its sums, a pixel's together.
 void Film::accumulate(const FilmPart& part, TileSums& sums) {
-    if (PixelSums::suits(kernel_, part.samples.samples_per_pixel)) return accumulate_pixels(part, sums);
-    const int taps = kernel_.taps_x() == kernel_.taps_y() ? kernel_.taps_x() : 0;
-    if (taps == 1) return accumulate_taps<1>(part, sums);
-    if (taps == 2) return accumulate_taps<2>(part, sums);
-    if (taps == 3) return accumulate_taps<3>(part, sums);
-    if (taps == 4) return accumulate_taps<4>(part, sums);
-    accumulate_taps<0>(part, sums);
-}
-
-void Film::accumulate_pixels(const FilmPart& part, TileSums& sums) {
-    constexpr float kNothing[4] = {};
-    const SampleTile& samples = part.samples;
-    const auto count = static_cast<size_t>(samples.samples_per_pixel);
-    const bool midpoint = depth_filter_ == DepthFilter::Midpoint;
-    const bool colored = sums.channels(Sum::Color) > 0, ids = !image_.id.empty();
-    PixelSums pixel(kernel_, samples.samples_per_pixel);
-    HitLayers layers;
-    for (int py = part.pixels.y0; py < part.pixels.y1; ++py) {
-        if (colored) part.interpolate_row(py, layers);
+    const auto count = static_cast<size_t>(part.samples.samples_per_pixel);
+    const bool sees_something = sums.channels(Sum::Color) > 0;
+    PixelSamples samples(rules_, count);
+    PixelSummer summer(kernel_, rules_, count);
+    for (int py = part.pixels.y0; py < part.pixels.y1; ++py)
         for (int px = part.pixels.x0; px < part.pixels.x1; ++px) {
             const size_t first = part.first_of(px, py);
-            PixelDepth depth(depth_filter_);
-            CentrePrimitive primitive(px, py);
-            bool seen = false;
-            for (size_t s = 0; s < count && colored; ++s) {
-                const size_t sample = first + s;
-                if (!part.has_hits(sample)) {
-                    if (ids) primitive.add(samples.x[sample], samples.y[sample], kNoPrimitive);
-                    pixel.set_color(s, kNothing);
-                    continue;
-                }
-                const SampleColor color = part.color(sample, layers, midpoint);
-                pixel.set_color(s, color.rgba);
-                seen = true;
-                depth.add(color.depth);
-                if (ids) primitive.add(samples.x[sample], samples.y[sample], color.primitive);
-            }
-            pixel.sum(samples.x.data() + first, samples.y.data() + first, px, py, seen);
-            sums.add(px - kernel_.reach_x(), py - kernel_.reach_y(), pixel, seen);
-            if (colored) record_pixel(px, py, depth.value(), primitive.value());
-        }
-    }
-}
-
-/// Adds a tile's samples and records its pixels' depths. kTaps: taps along both axes; 0: as the kernel has
-/// them.
-template <int kTaps>
-void Film::accumulate_taps(const FilmPart& part, TileSums& sums) {
-    constexpr float kOne = 1;
-    const SampleTile& samples = part.samples;
-    std::vector<float> weights(kernel_.tap_count());
-    const bool midpoint = depth_filter_ == DepthFilter::Midpoint;
-    const bool colored = sums.channels(Sum::Color) > 0, ids = !image_.id.empty();
-    HitLayers layers;
-    for (int py = part.pixels.y0; py < part.pixels.y1; ++py) {
-        if (colored) part.interpolate_row(py, layers);
-        for (int px = part.pixels.x0; px < part.pixels.x1; ++px) {
-            PixelDepth depth(depth_filter_);
-            CentrePrimitive primitive(px, py);
-            for (size_t sample = part.first_of(px, py); sample < part.first_of(px + 1, py); ++sample) {
-                const float x = samples.x[sample], y = samples.y[sample];
-                const FilterTaps taps = kernel_.weigh<kTaps>(x, y, px, py, weights.data());
-                sums.add<kTaps, 1>(Sum::Weight, taps, weights.data(), &kOne);
-                if (!colored || !part.has_hits(sample)) {
-                    if (ids) primitive.add(x, y, kNoPrimitive);
-                    continue;
-                }
-                const SampleColor color = part.color(sample, layers, midpoint);
-                sums.add<kTaps, 4>(Sum::Color, taps, weights.data(), color.rgba);
-                depth.add(color.depth);
-                if (ids) primitive.add(x, y, color.primitive);
-            }
-            if (colored) record_pixel(px, py, depth.value(), primitive.value());
-        }
-    }
-}
-
-/// Adds output variables, in a pass of their own, so that pictures without them pay nothing.
-void Film::accumulate_aovs(const FilmPart& part, TileSums& sums) {
-    const SampleTile& samples = part.samples;
-    std::vector<float> weights(kernel_.tap_count()), values(sums.channels(Sum::Aov));
-    const bool all_summed = aovs_.all_summed();
-    PixelVariables kept(aovs_);
-    for (int py = part.pixels.y0; py < part.pixels.y1; ++py)
-        for (int px = part.pixels.x0; px < part.pixels.x1; ++px) {
-            kept.begin();
-            for (size_t sample = part.first_of(px, py); sample < part.first_of(px + 1, py); ++sample) {
-                if (!part.has_hits(sample)) continue;
-                const float depth = part.variables(sample, aovs_, values.data());
-                if (!all_summed) kept.take(values.data(), depth);
-                const FilterTaps taps =
-                    kernel_.weigh(samples.x[sample], samples.y[sample], px, py, weights.data());
-                sums.add<0, 0>(Sum::Aov, taps, weights.data(), values.data());
-            }
-            if (!all_summed) record_variables(px, py, kept);
-        }
-}
-
-void Film::accumulate_layers(const FilmPart& part, TileSums& sums) {
-    const SampleTile& samples = part.samples;
-    LayerSums pixel(layer_rules_);
-    std::vector<SeenLayer> layers;
-    for (int py = part.pixels.y0; py < part.pixels.y1; ++py)
-        for (int px = part.pixels.x0; px < part.pixels.x1; ++px) {
-            pixel.begin(px, py);
-            for (size_t sample = part.first_of(px, py); sample < part.first_of(px + 1, py); ++sample) {
-                layers.clear();
-                if (sums.channels(Sum::Color) > 0 && part.has_hits(sample)) part.see(sample, layers);
-                pixel.add(layers, samples.x[sample], samples.y[sample], 1,
-                          sums.mattes ? &*sums.mattes : nullptr);
-            }
-            if (layer_rules_.deep_tolerance) record_deep(px, py, pixel.deep_samples());
+            if (sees_something) samples.see(part, first);
+            const PixelRecord record = summer.add(px, py, part.samples.x.data() + first,
+                                                  part.samples.y.data() + first, samples, sums);
+            if (sees_something) record_pixel(px, py, record);
         }
 }
 
@@ -266,29 +154,25 @@ bool Film::takes_pixel(int px, int py) const {
            !tiles_[tiles_.of_pixel(px, py)].finished.load(std::memory_order_relaxed);
 }
 
-/// Exposure's gain is a picture's, too, but not its gamma: deep samples add up.
-void Film::record_deep(int px, int py, std::vector<DeepSample> samples) {
-    if (!takes_pixel(px, py)) return;
-    for (DeepSample& sample : samples)
-        for (int c = 0; c < 3; ++c) sample.rgba[c] *= gain_;
-    image_.deep[image_.index(px, py)] = std::move(samples);
-}
-
-/// Records a pixel's depth and id, which are of the samples within the pixel alone; these all lie in one
-/// tile.
-void Film::record_pixel(int px, int py, float depth, uint32_t primitive) {
+/// Records what is of the samples within a pixel alone; these all lie in one tile.
+void Film::record_pixel(int px, int py, const PixelRecord& record) {
     if (!takes_pixel(px, py)) return;
     const size_t at = image_.index(px, py);
-    image_.z[at] = depth;
-    if (!image_.id.empty()) image_.id[at] = primitive;
-}
-
-/// Records what a pixel keeps of variables. To these channels nothing is added but 0.
-void Film::record_variables(int px, int py, const PixelVariables& variables) {
-    if (!takes_pixel(px, py)) return;
-    std::copy(
-        variables.values().begin(), variables.values().end(),
-        image_.aovs.begin() + static_cast<std::ptrdiff_t>(variables.values().size() * image_.index(px, py)));
+    image_.z[at] = record.depth;
+    if (!image_.id.empty()) image_.id[at] = record.primitive;
+    // To these channels nothing is added but 0.
+    if (record.variables) {
+        const std::vector<float>& values = record.variables->values();
+        std::copy(values.begin(), values.end(),
+                  image_.aovs.begin() + static_cast<std::ptrdiff_t>(values.size() * at));
+    }
+    if (record.layers && rules_.layers.deep_tolerance) {
+        std::vector<DeepSample> samples = record.layers->deep_samples();
+        // Exposure's gain is a picture's, too, but not its gamma: deep samples add up.
+        for (DeepSample& sample : samples)
+            for (int c = 0; c < 3; ++c) sample.rgba[c] *= gain_;
+        image_.deep[at] = std::move(samples);
+    }
 }
 
 Image Film::finish() {

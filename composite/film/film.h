@@ -5,31 +5,29 @@
 /// sum: each has its own, over its pixels and those around that its samples reach, filled in the order of the
 /// samples. A pixel is finished by adding the sums of the tiles around it in the order of the tiles, as soon
 /// as the last of these has come; then sums that nobody waits for are freed, so that memory holds the picture
-/// and a frontier of tiles. Output variables (aov.h) are summed the same way, in a pass of their own over a
-/// tile's samples, so that pictures without them pay nothing.
+/// and a frontier of tiles. A pixel's samples are summed together (pixel_summer.h): colours, and output
+/// variables (aov.h) if there are any.
 #pragma once
 
 #include <atomic>
 #include <memory>
 #include <vector>
 
+#include "composite/film/film_rules.h"
 #include "composite/film/film_tiles.h"
 #include "composite/film/finished_tiles.h"
-#include "composite/film/layer_sums.h"
 #include "composite/film/sample_sink.h"
 #include "composite/filters/filters.h"
 #include "composite/image.h"
 #include "core/scene/aov.h"
-#include "core/scene/depth_filter.h"
 #include "core/scene/render_context.h"
 
 namespace trapeze {
 
 struct FilmPart;
+struct PixelRecord;
 class AwaitedTiles;
 class GatheredSamples;
-class PixelVariables;
-struct GatherRules;
 
 class Film final : public SampleSink {
   public:
@@ -50,7 +48,8 @@ class Film final : public SampleSink {
 
     /// Adds pixels with numbers of samples of their own, gathered by the film's rules; rectangles as above.
     void add(const GatheredSamples& gathered);
-    GatherRules gather_rules() const;
+    /// What it wants of samples; as long as the film lives.
+    const FilmRules& rules() const { return rules_; }
 
     /// The picture. Pixels that still wait for tiles are made of those that came. Call once, after the last
     /// add().
@@ -90,21 +89,11 @@ class Film final : public SampleSink {
     template <class SumsOf>
     void add_tile(int tile, const PixelRect& pixels, const SumsOf& sums_of);
 
-    /// Adds weights and colours of a tile's samples to its sums.
     void accumulate(const FilmPart& part, TileSums& sums);
-    /// kTaps: as FilterKernel::weigh() takes it.
-    template <int kTaps>
-    void accumulate_taps(const FilmPart& part, TileSums& sums);
-    void accumulate_pixels(const FilmPart& part, TileSums& sums);
-    void accumulate_aovs(const FilmPart& part, TileSums& sums);
     FinishedTilesHeader finished_tiles_header() const;
     bool takes_pixel(int px, int py) const;
-    void record_pixel(int px, int py, float depth, uint32_t primitive);
-    void record_variables(int px, int py, const PixelVariables& variables);
-    void record_deep(int px, int py, std::vector<DeepSample> samples);
+    void record_pixel(int px, int py, const PixelRecord& record);
     std::unique_ptr<TileSums> make_sums(const PixelRect& tile, bool colored) const;
-    /// Adds what the layers of samples make: mattes and deep pixels.
-    void accumulate_layers(const FilmPart& part, TileSums& sums);
     void rank_mattes(int tile, const PixelRect& pixels);
     void finish_tile(int tile);
     void develop_inner(int tile, const TileSums& sums);
@@ -118,9 +107,8 @@ class Film final : public SampleSink {
     FilterKernel kernel_;
     MatteKeys matte_keys_;
     std::optional<FilterKernel> matte_kernel_;  ///< where mattes are asked for
-    LayerRules layer_rules_;
+    FilmRules rules_;
     std::atomic<float> matte_loss_{0};
-    DepthFilter depth_filter_ = DepthFilter::Min;
     float gain_ = 1, inverse_gamma_ = 1;
     FilmTiles tiles_;
     std::atomic<size_t> waiting_bytes_{0};

@@ -1,10 +1,10 @@
 /// What the film gets of samples: hits, or what these have been made into.
 #pragma once
 
-#include "composite/film/hit_layers.h"
-#include "composite/film/layer_stack.h"
-#include "composite/film/resolve_layers.h"
-#include "composite/film/seen_layers.h"
+#include "composite/layers/hit_layers.h"
+#include "composite/layers/layer_stack.h"
+#include "composite/layers/resolve_layers.h"
+#include "composite/layers/seen_layers.h"
 #include "core/hit_buffer.h"
 #include "core/samples.h"
 
@@ -23,9 +23,6 @@ struct FilmPart {
     /// The layers of some samples in a row; a stack has had them.
     void interpolate(size_t begin, size_t end, HitLayers& layers) const {
         if (!stack) layers.interpolate(samples, hits, begin, end, grids);
-    }
-    void interpolate_row(int py, HitLayers& layers) const {
-        interpolate(first_of(pixels.x0, py), first_of(pixels.x1, py), layers);
     }
     /// Of a sample that has hits.
     SampleColor color(size_t sample, const HitLayers& layers, bool midpoint) const {

@@ -11,29 +11,22 @@
 #include <functional>
 #include <vector>
 
-#include "composite/film/layer_sums.h"
+#include "composite/film/film_rules.h"
+#include "composite/film/pixel_samples.h"
 #include "composite/film/sample_sink.h"
 #include "composite/filters/filters.h"
-#include "core/scene/aov.h"
-#include "core/scene/depth_filter.h"
 
 namespace trapeze {
 
-class PixelVariables;
+struct FilmPart;
+struct PixelRecord;
 class TileSums;
-
-/// How the film wants samples to be made into colours.
-struct GatherRules {
-    const AovLayout* aovs = nullptr;
-    DepthFilter depth_filter = DepthFilter::Min;
-    LayerRules layers = {};
-};
 
 /// One a thread, used again from rectangle to rectangle.
 class GatheredSamples final : public SampleSink {
   public:
-    /// Forgets all samples. `most`: samples that a pixel may have.
-    void begin(const PixelRect& pixels, size_t most, const GatherRules& rules);
+    /// Forgets all samples. `most`: samples that a pixel may have. The rules are a film's.
+    void begin(const PixelRect& pixels, size_t most, const FilmRules& rules);
 
     /// Adds samples of listed pixels (SampleTile::listed), behind those that these have; in two goes at most.
     void add(const SampleTile& samples, const HitBuffer& hits, const Grids& grids) override;
@@ -50,14 +43,6 @@ class GatheredSamples final : public SampleSink {
     /// Whether any sample shows anything.
     bool shows_something() const { return shows_something_; }
 
-    /// What a film keeps of a pixel beside sums: its depth, the primitive at its centre, and variables that
-    /// are no sums, and what its layers make; null: there are none.
-    struct PixelRecord {
-        float depth;
-        uint32_t primitive;
-        const PixelVariables* variables;
-        LayerSums* layers;
-    };
     using RecordPixel = std::function<void(int x, int y, const PixelRecord& record)>;
     /// Adds weights, colours and variables of a part of the pixels.
     void sum(const PixelRect& part, const FilterKernel& kernel, TileSums& sums,
@@ -69,7 +54,7 @@ class GatheredSamples final : public SampleSink {
         float depth;
         uint32_t primitive;
         bool has_hits;
-        float variables_depth;  ///< FilmPart::variables(); undefined where there are none
+        float variables_depth;  ///< as SeenSample's
     };
     /// Where a pixel's samples are: those with which it began, and those that came later.
     struct Slot {
@@ -77,7 +62,7 @@ class GatheredSamples final : public SampleSink {
 
         size_t count() const { return size_t{counts[0]} + counts[1]; }
     };
-    class PixelSummer;
+    class Level;
 
     std::span<const SeenLayer> layers_of(size_t sample) const {
         return std::span(layers_).subspan(first_layer_[sample],
@@ -88,11 +73,13 @@ class GatheredSamples final : public SampleSink {
         return static_cast<size_t>(pixel.y - pixels_.y0) * pixels_.width() +
                static_cast<size_t>(pixel.x - pixels_.x0);
     }
-    void append(const struct FilmPart& part);
+    void append(const FilmPart& part);
+    void append(const PixelSamples& pixel);
+    SeenSample of(size_t sample) const;
 
     PixelRect pixels_;
     size_t most_ = 0;
-    GatherRules rules_;
+    const FilmRules* rules_ = nullptr;
     bool shows_something_ = false;
     std::vector<Slot> slots_;  ///< by pixel
     std::vector<Seen> seen_;

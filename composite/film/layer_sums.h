@@ -7,8 +7,8 @@
 
 #include "composite/film/deep_pixel.h"
 #include "composite/film/matte_sums.h"
-#include "composite/film/seen_layers.h"
 #include "composite/filters/filters.h"
+#include "composite/layers/seen_layers.h"
 #include "composite/mattes/matte_layers.h"
 
 namespace trapeze {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 
 #include "composite/image.h"
 #include "core/math.h"
@@ -10,35 +11,38 @@
 
 namespace trapeze {
 
-/// Combines the depths of a pixel's samples, which come in their order; infinite when none sees anything.
-class PixelDepth {
-  public:
-    explicit PixelDepth(DepthFilter filter) : filter_(filter) {}
+/// The least or greatest of depths, by `better`; several at a time.
+template <class Better>
+float best_depth(std::span<const float> depths, float start, const Better& better) {
+    constexpr size_t kLanes = 16;
+    float best[kLanes];
+    std::fill_n(best, kLanes, start);
+    const auto take = [&](float depth, float& lane) { lane = better(depth, lane) ? depth : lane; };
+    size_t s = 0;
+    for (; s + kLanes <= depths.size(); s += kLanes)
+        for (size_t i = 0; i < kLanes; ++i) take(depths[s + i], best[i]);
+    for (; s < depths.size(); ++s) take(depths[s], best[0]);
+    for (size_t i = 1; i < kLanes; ++i) take(best[i], best[0]);
+    return best[0];
+}
 
-    /// A sample that sees nothing (infinite depth) does not count. The depths of "midpoint" are already
-    /// halfway ones, of which the least is kept.
-    void add(float depth) {
-        if (depth >= kInfinity) return;
-        if (count_ == 0)
-            value_ = depth;
-        else if (filter_ == DepthFilter::Min || filter_ == DepthFilter::Midpoint)
-            value_ = std::min(value_, depth);
-        else if (filter_ == DepthFilter::Max)
-            value_ = std::max(value_, depth);
-        else
-            value_ += depth;
-        ++count_;
+/// A pixel's depth, of those of its samples in their order. Samples that see nothing (infinite depth) do not
+/// count; infinite when none sees anything. The depths of "midpoint" are already halfway ones, of which the
+/// least is kept.
+inline float pixel_depth(DepthFilter filter, std::span<const float> depths) {
+    if (filter == DepthFilter::Min || filter == DepthFilter::Midpoint)
+        return best_depth(depths, kInfinity, [](float a, float b) { return a < b; });
+    if (filter == DepthFilter::Max) {
+        const float most =
+            best_depth(depths, -kInfinity, [](float a, float b) { return a > b && a < kInfinity; });
+        return most > -kInfinity ? most : kInfinity;
     }
-    float value() const {
-        if (count_ == 0) return kInfinity;
-        return filter_ == DepthFilter::Average ? value_ / static_cast<float>(count_) : value_;
-    }
-
-  private:
-    DepthFilter filter_;
-    float value_ = 0;
-    int count_ = 0;
-};
+    float sum = 0;
+    int count = 0;
+    for (const float depth : depths)
+        if (depth < kInfinity) sum += depth, ++count;
+    return count > 0 ? sum / static_cast<float>(count) : kInfinity;
+}
 
 /// Keeps the primitive that the sample nearest a pixel's centre sees; of equally near samples the first.
 class CentrePrimitive {

@@ -23,7 +23,7 @@ class TileSums {
   public:
     /// `colored`: some sample hits something; else colours and variables are not even there.
     TileSums(const PixelRect& tile, const FilterKernel& kernel, bool colored, int aov_channels)
-        : pixels_(kernel.footprint(tile)), taps_x_(kernel.taps_x()), taps_y_(kernel.taps_y()) {
+        : pixels_(kernel.footprint(tile)) {
         channels_ = {1, colored ? 4 : 0, colored ? aov_channels : 0};
         const size_t count = static_cast<size_t>(pixels_.width()) * pixels_.height();
         for (const Sum sum : kSums) values_[at(sum)].resize(count * channels(sum));
@@ -36,29 +36,20 @@ class TileSums {
         return values_[at(sum)].data() + channels(sum) * index(x, y);
     }
 
-    /// Adds a sample's values, of as many channels as the sum has, to the pixels of its taps by their
-    /// weights. kTaps (taps along either axis) and kChannels: where the caller's compiler knows them, else 0.
-    template <int kTaps, int kChannels>
-    void add(Sum sum, const FilterTaps& taps, const float* weights, const float* values) {
-        const int nx = kTaps ? kTaps : taps_x_, ny = kTaps ? kTaps : taps_y_;
-        const size_t n = kChannels ? kChannels : channels(sum);
-        float* row = values_[at(sum)].data() + n * index(taps.x0, taps.y0);
-        for (int j = 0; j < ny; ++j, row += n * pixels_.width(), weights += nx)
-            for (int i = 0; i < nx; ++i)
-                for (size_t c = 0; c < n; ++c) row[n * i + c] += weights[i] * values[c];
-    }
-
-    /// Adds weights, and colours if there are, of a pixel's samples to the pixels from (x0, y0) on, each so
-    /// many times over.
-    void add(int x0, int y0, const PixelSums& from, bool colored, float times = 1) {
-        float* const weights = values_[at(Sum::Weight)].data();
-        float* const colors = values_[at(Sum::Color)].data();
+    /// Adds weights, and the rest if there is some, of a pixel's samples to the pixels from (x0, y0) on, each
+    /// so many times over.
+    void add(int x0, int y0, const PixelSums& from, bool sees_something, float times) {
+        const size_t variables = channels(Sum::Aov);
         for (int j = 0; j < from.rows(); ++j)
             for (int i = 0; i < from.columns(); ++i) {
                 const float* const sums = from.at(i, j);
                 const size_t pixel = index(x0 + i, y0 + j);
-                weights[pixel] += times * sums[0];
-                for (size_t c = 0; c < 4 && colored; ++c) colors[4 * pixel + c] += times * sums[1 + c];
+                values_[at(Sum::Weight)][pixel] += times * sums[0];
+                if (!sees_something) continue;
+                float* const color = values_[at(Sum::Color)].data() + 4 * pixel;
+                for (size_t c = 0; c < 4; ++c) color[c] += times * sums[1 + c];
+                float* const aovs = values_[at(Sum::Aov)].data() + variables * pixel;
+                for (size_t c = 0; c < variables; ++c) aovs[c] += times * sums[5 + c];
             }
     }
 
@@ -77,7 +68,6 @@ class TileSums {
     }
 
     PixelRect pixels_;
-    int taps_x_, taps_y_;
     std::array<int, kSums.size()> channels_{};
     std::array<std::vector<float>, kSums.size()> values_;  ///< row by row; a pixel's channels together
 };

@@ -125,6 +125,21 @@ double radial_aspect(const FilterRow& row, double width_x, double width_y) {
     return row.form == Form::Elliptic ? width_x / width_y : 1;
 }
 
+/// Fills the table of an axis of a separable filter.
+void tabulate(FilterAxis& axis, const FilterRow& row) {
+    for (int i = 0; i < axis.taps; ++i) {
+        const auto weight_at = [&](int phase) {
+            const double x = axis.half_width - 1.0 + static_cast<double>(phase) / FilterAxis::kPhases - i;
+            return static_cast<float>(row.value(x, 2.0 * axis.half_width));
+        };
+        for (int phase = 0; phase <= FilterAxis::kPhases; ++phase) {
+            const float weight = weight_at(phase);
+            axis.phases.push_back(
+                std::bit_cast<int64_t>(FilterAxis::Pair{weight, weight_at(phase + 1) - weight}));
+        }
+    }
+}
+
 /// A width that a kernel can be made for.
 float sane_width(float width) {
     return width >= kMinWidth ? std::min(width, kMaxWidth) : kMinWidth;  // NaN too
@@ -163,13 +178,7 @@ FilterKernel::FilterKernel(const PixelFilter& filter, Diagnostics* diagnostics) 
     x_ = make_axis(sane_width(filter.width_x)), y_ = make_axis(sane_width(filter.width_y));
     separable_ = row.form == Form::Separable;
     if (separable_) {
-        for (FilterAxis* axis : {&x_, &y_})
-            for (int phase = 0; phase <= FilterAxis::kPhases + 1; ++phase)
-                for (int i = 0; i < axis->taps; ++i) {
-                    const double x =
-                        axis->half_width - 1.0 + static_cast<double>(phase) / FilterAxis::kPhases - i;
-                    axis->phases.push_back(static_cast<float>(row.value(x, 2.0 * axis->half_width)));
-                }
+        for (FilterAxis* axis : {&x_, &y_}) tabulate(*axis, row);
         return;
     }
     const double width_x = 2.0 * x_.half_width, width_y = 2.0 * y_.half_width;

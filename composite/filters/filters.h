@@ -5,6 +5,8 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -37,7 +39,15 @@ struct FilterAxis {
     int taps = 2, reach = 1;
     float rim = 0;  ///< phases below this leave the last tap outside of the support (widths between
                     ///< integers); its weight is then 0
-    std::vector<float> phases;  ///< of a separable filter: kPhases + 2 rows of `taps` weights, interpolated
+    /// A weight at a phase, and how much more it is at the next one.
+    struct Pair {
+        float weight, step;
+    };
+    /// Of a separable filter: kPhases + 1 Pairs of each tap, tap by tap; as integers, so that a vector load
+    /// brings both numbers.
+    std::vector<int64_t> phases;
+
+    const int64_t* tap(int i) const { return phases.data() + static_cast<size_t>(i) * (kPhases + 1); }
 
     int locate(float position, int pixel, float* phase) const {
         // Rounding may put a sample on its pixel's far edge; it stays that pixel's. So does one that is
@@ -54,16 +64,18 @@ struct FilterAxis {
     /// Pixels that samples of one pixel reach, along this axis.
     int columns() const { return taps + (start() > 0 ? 1 : 0); }
     int spare() const { return taps > 2 * reach && rim > 0 ? 1 : 0; }
-    template <int kTaps>
+    /// The weights of a separable filter's taps; returns the first.
     int weigh(float position, int pixel, float* weights) const {
         float phase;
-        const int first = locate(position, pixel, &phase), n = kTaps ? kTaps : taps;
+        const int first = locate(position, pixel, &phase);
         const float at = phase * kPhases;
         const int row = static_cast<int>(at);
         const float part = at - static_cast<float>(row);
-        const float* low = phases.data() + static_cast<size_t>(row) * n;
-        for (int i = 0; i < n; ++i) weights[i] = low[i] + part * (low[n + i] - low[i]);
-        if (phase < rim) weights[n - 1] = 0;
+        for (int i = 0; i < taps; ++i) {
+            const Pair pair = std::bit_cast<Pair>(tap(i)[row]);
+            weights[i] = pair.weight + part * pair.step;
+        }
+        if (phase < rim) weights[taps - 1] = 0;
         return first;
     }
 };
@@ -76,10 +88,20 @@ class FilterKernel {
     /// Warns once about a name that is not known and uses the gaussian.
     explicit FilterKernel(const PixelFilter& filter, Diagnostics* diagnostics = nullptr);
 
+    /// The table of a filter that is a function of the distance from the centre.
+    struct RadialTable {
+        std::vector<float>
+            values;        ///< one more than `last` says, so that interpolation at the end stays inside
+        float scale = 1;   ///< entries per pixel
+        float last = 0;    ///< index from which on the filter is 0
+        float aspect = 1;  ///< y times this, then the distance is taken
+    };
+
     /// Whether weights are products of those along both axes.
     bool is_separable() const { return separable_; }
     const FilterAxis& x() const { return x_; }
     const FilterAxis& y() const { return y_; }
+    const RadialTable& radial() const { return radial_; }  ///< of a filter that is not separable
     int taps_x() const { return x_.taps; }
     int taps_y() const { return y_.taps; }
     int tap_count() const { return x_.taps * y_.taps; }
@@ -95,16 +117,13 @@ class FilterKernel {
     }
 
     /// The weights of a sample at raster position (x, y) in pixel (pixel_x, pixel_y). Depends on nothing
-    /// else. `weights` has room for tap_count(); taps outside the support get 0. kTaps: taps_x() and
-    /// taps_y() where these are equal and known to the caller's compiler, else 0.
-    template <int kTaps = 0>
+    /// else. `weights` has room for tap_count(); taps outside the support get 0.
     FilterTaps weigh(float x, float y, int pixel_x, int pixel_y, float* weights) const {
         if (!separable_) return weigh_radially(x, y, pixel_x, pixel_y, weights);
-        const int nx = kTaps ? kTaps : x_.taps, ny = kTaps ? kTaps : y_.taps;
-        float wx[kTaps ? kTaps : kMaxTaps], wy[kTaps ? kTaps : kMaxTaps];
-        const FilterTaps taps{x_.weigh<kTaps>(x, pixel_x, wx), y_.weigh<kTaps>(y, pixel_y, wy)};
-        for (int j = 0; j < ny; ++j)
-            for (int i = 0; i < nx; ++i) weights[j * nx + i] = wx[i] * wy[j];
+        float wx[kMaxTaps], wy[kMaxTaps];
+        const FilterTaps taps{x_.weigh(x, pixel_x, wx), y_.weigh(y, pixel_y, wy)};
+        for (int j = 0; j < y_.taps; ++j)
+            for (int i = 0; i < x_.taps; ++i) weights[j * x_.taps + i] = wx[i] * wy[j];
         return taps;
     }
 
@@ -112,14 +131,6 @@ class FilterKernel {
     /// Taps along an axis, at most.
     static constexpr int kMaxTaps = 64;
 
-    /// The table of a filter that is a function of the distance from the centre.
-    struct RadialTable {
-        std::vector<float>
-            values;        ///< one more than `last` says, so that interpolation at the end stays inside
-        float scale = 1;   ///< entries per pixel
-        float last = 0;    ///< index from which on the filter is 0
-        float aspect = 1;  ///< y times this, then the distance is taken
-    };
     static FilterAxis make_axis(float width);
     FilterTaps weigh_radially(float x, float y, int pixel_x, int pixel_y, float* weights) const;
 

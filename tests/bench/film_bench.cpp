@@ -11,9 +11,21 @@
 namespace trapeze {
 namespace {
 
-constexpr int kColumns = 8, kRows = 8, kSamplesSide = 8;
+constexpr int kColumns = 4, kRows = 4, kSamplesSide = 8;
 
-enum class View { Empty, Constant, Smooth, Glass };
+enum class View { Empty, Constant, Smooth, Glass, EightGlasses };
+
+/// Each sample's hits in all layers, front to back.
+HitBuffer one_behind_the_other(const std::vector<HitBuffer>& layers) {
+    HitBuffer all;
+    all.first.push_back(0);
+    for (size_t s = 0; s < layers.front().size(); ++s) {
+        for (const HitBuffer& layer : layers)
+            all.hits.insert(all.hits.end(), layer.of(s).begin(), layer.of(s).end());
+        all.first.push_back(static_cast<uint32_t>(all.hits.size()));
+    }
+    return all;
+}
 
 void film_add(benchmark::State& state, View view, const char* filter, float width) {
     testing::RasterScene scene(kColumns * kMaxGridSide, kRows * kMaxGridSide, kSamplesSide);
@@ -22,18 +34,26 @@ void film_add(benchmark::State& state, View view, const char* filter, float widt
     look.color = [](int x, int y) {
         return V3f(static_cast<float>(x & 7), static_cast<float>(y & 7), 1) * 0.1f;
     };
-    if (view == View::Glass) look.opacity = [](int, int) { return V3f(0.5f); };
-    look.smooth = view == View::Smooth;
+    const int layers = view == View::EightGlasses ? 8 : 1;
+    if (view >= View::Glass) look.opacity = [](int, int) { return V3f(0.5f); };
+    look.smooth = view == View::Smooth || view == View::EightGlasses;
     Grids grids;
-    testing::add_grids(grids, kColumns, kRows, look);
+    for (int layer = 0; layer < layers; ++layer) {
+        look.depth = static_cast<float>(1 + layer);
+        testing::add_grids(grids, kColumns, kRows, look);
+    }
 
     std::vector<SampleTile> samples;
     std::vector<HitBuffer> hits;
     size_t count = 0;
     for (const PixelRect& tile : testing::tiles_of(scene.sampled())) {
         samples.push_back(testing::make_samples(scene, tile));
-        hits.push_back(testing::make_hits(samples.back(), grids, kColumns, kRows,
-                                          [&](float, float) { return view != View::Empty; }));
+        std::vector<HitBuffer> of_layers;
+        for (int layer = 0; layer < layers; ++layer)
+            of_layers.push_back(testing::make_hits(
+                samples.back(), grids, kColumns, kRows, [&](float, float) { return view != View::Empty; },
+                static_cast<uint32_t>(layer * kColumns * kRows)));
+        hits.push_back(one_behind_the_other(of_layers));
         count += samples.back().size();
     }
     for (auto _ : state) {
@@ -69,6 +89,8 @@ BENCHMARK_CAPTURE(film_add, empty_gaussian2, View::Empty, "gaussian", 2)->Unit(b
 BENCHMARK_CAPTURE(film_add, constant_gaussian2, View::Constant, "gaussian", 2)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(film_add, smooth_gaussian2, View::Smooth, "gaussian", 2)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(film_add, glass_gaussian2, View::Glass, "gaussian", 2)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(film_add, eight_glasses_gaussian2, View::EightGlasses, "gaussian", 2)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(film_add, constant_box1, View::Constant, "box", 1)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(film_add, constant_mitchell4, View::Constant, "mitchell", 4)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(film_add, constant_catmull_rom4, View::Constant, "catmull-rom", 4)

@@ -26,7 +26,7 @@ uint64_t AdaptiveTile::add(const AdaptiveTask& task, const PixelRect& pixels, La
     const SampleLevels& levels = *task.pattern.levels();
     pixels_ = pixels;
     list_pixels();
-    gathered_.begin(pixels, levels.samples(levels.top()), task.film.gather_rules());
+    gathered_.begin(pixels, levels.samples(levels.top()), task.film.rules());
     take(task, all_, 0, 0, passes, scratch, stats);
     uint64_t count = all_.size() * levels.samples(0);
     if (gathered_.shows_something()) {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
-#include "composite/film/layer_stack.h"
 #include "composite/film/sample_sink.h"
+#include "composite/layers/layer_stack.h"
 #include "core/scene/layer_limit.h"
 #include "sample/visibility.h"
 

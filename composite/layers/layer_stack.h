@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "composite/film/hit_layers.h"
-#include "composite/film/resolve_layers.h"
-#include "composite/film/seen_layers.h"
+#include "composite/layers/hit_layers.h"
+#include "composite/layers/resolve_layers.h"
+#include "composite/layers/seen_layers.h"
 #include "core/scene/aov.h"
 
 namespace trapeze {

@@ -1,8 +1,8 @@
-#include "composite/film/seen_layers.h"
+#include "composite/layers/seen_layers.h"
 
 #include <algorithm>
 
-#include "composite/film/walk_layers.h"
+#include "composite/layers/walk_layers.h"
 
 namespace trapeze {
 

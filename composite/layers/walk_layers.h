@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <span>
 
-#include "composite/film/hit_layers.h"
+#include "composite/layers/hit_layers.h"
 #include "core/grid.h"
 #include "core/hit_buffer.h"
 #include "core/math.h"

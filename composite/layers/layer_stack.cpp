@@ -1,4 +1,4 @@
-#include "composite/film/layer_stack.h"
+#include "composite/layers/layer_stack.h"
 
 namespace trapeze {
 namespace {
@@ -10,6 +10,7 @@ constexpr size_t kHitsAtOnce = 1024;
 
 void LayerStack::begin(size_t sample_count, const AovLayout& aovs, bool midpoint, bool keeps_layers) {
     aovs_ = &aovs;
+    layers_.forget();
     midpoint_ = midpoint;
     sums_.assign(sample_count, {});
     has_hits_.assign(sample_count, 0);

@@ -1,4 +1,4 @@
-#include "composite/film/resolve_layers.h"
+#include "composite/layers/resolve_layers.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "composite/film/resolve_layers.h"
+#include "composite/layers/resolve_layers.h"
 
 #include <algorithm>
 
-#include "composite/film/walk_layers.h"
+#include "composite/layers/walk_layers.h"
 
 namespace trapeze {
 namespace {

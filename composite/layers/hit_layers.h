@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "composite/layers/corner_cache.h"
+#include "composite/layers/interpolate_hits.h"
 #include "core/grid.h"
 #include "core/hit_buffer.h"
 #include "core/math.h"
@@ -22,9 +24,11 @@ struct Layer {
 Layer layer_at(const AxisRay& ray, const Grid& grid, const MicropolygonId& id);
 
 /// Layers of hits that lie in a row in a HitBuffer, in planes. One serves for many rows, and keeps its
-/// memory.
+/// memory; all are of the same grids, until forget().
 class HitLayers {
   public:
+    void forget() { corners_.forget(); }
+
     /// Finds the layers of samples `begin` to `end`, to the bit as layer_at() gives them. A hit on a grid
     /// that is not there gets an undefined layer.
     void interpolate(const SampleTile& samples, const HitBuffer& hits, size_t begin, size_t end,
@@ -41,16 +45,19 @@ class HitLayers {
         return {planes_[0][i], planes_[1][i], planes_[2][i]};
     }
 
-  private:
-    void put(size_t place, const Layer& layer) {
-        for (int c = 0; c < 3; ++c) {
-            planes_[c][place] = layer.color[c];
-            planes_[3 + c][place] = layer.opacity[c];
-        }
-    }
+    /// Whether each of the samples has one hit alone, which hides all behind it whatever its colour. The
+    /// planes are then those of the samples.
+    bool all_cover() const { return kinds_.all_cover; }
+    bool all_plain() const { return kinds_.all_plain; }
+    /// Ci or Oi of all hits: plane 0 to kLayerPlanes.
+    const float* plane(size_t n) const { return planes_[n].data(); }
 
-    size_t first_ = 0;              ///< number of the first hit whose layer is here
-    std::vector<float> planes_[6];  ///< Ci, Oi; whole vectors can be written
+  private:
+    size_t first_ = 0;  ///< number of the first hit whose layer is here
+    HitKinds kinds_;
+    std::vector<float> planes_[kLayerPlanes];
+    std::vector<uint32_t> sample_of_;  ///< of each hit
+    CornerCache corners_;
 };
 
 }  // namespace trapeze

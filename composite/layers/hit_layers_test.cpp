@@ -1,4 +1,4 @@
-#include "composite/film/hit_layers.h"
+#include "composite/layers/hit_layers.h"
 
 #include <gtest/gtest.h>
 
@@ -47,18 +47,20 @@ class HitLayersOfRandomGrids : public ::testing::TestWithParam<bool> {
         grids_.grids.push_back(grid);
     }
 
-    /// 0 to 3 hits a sample, one in thirty on a grid that is not there.
+    /// 0 to 3 hits a sample, one in thirty on a grid that is not there. The latter half meets few
+    /// micropolygons.
     void make_samples() {
         samples_.resize(400);
         hits_.first.push_back(0);
         for (AxisRay& ray : samples_.rays) {
             ray = {between(-2, 2), between(-2, 2), 0, between(-1, 1), between(-1, 1), between(0, 0.999f)};
             for (int n = below(4); n > 0; --n) {
-                auto at = static_cast<uint32_t>(below(static_cast<int>(grids_.grids.size())));
+                const auto at = static_cast<uint32_t>(below(static_cast<int>(grids_.grids.size())));
                 const GridShape shape = grids_.grids[at].shape;
-                if (below(30) == 0) at = 1000;
-                const MicropolygonId id{at, static_cast<uint8_t>(below(shape.nu)),
-                                        static_cast<uint8_t>(below(shape.nv))};
+                MicropolygonId id{at, static_cast<uint8_t>(below(shape.nu)),
+                                  static_cast<uint8_t>(below(shape.nv))};
+                if (&ray >= &samples_.rays[200]) id = {static_cast<uint32_t>(below(10)), 0, 0};
+                if (below(30) == 0) id.grid = 1000;
                 hits_.hits.push_back({between(1, 9), id.packed()});
             }
             hits_.first.push_back(static_cast<uint32_t>(hits_.hits.size()));
@@ -97,6 +99,44 @@ TEST_P(HitLayersOfRandomGrids, AreThoseOfEachHitAloneOnAllTargets) {
         check(17, 18), check(50, 50), check(100, 161);
     }
     ASSERT_TRUE(limit_simd("best", &error));
+}
+
+/// What is flat stays flat, wherever rays meet it.
+TEST_P(HitLayersOfRandomGrids, OfOneColorShowItToTheLastBit) {
+    for (Grid& grid : grids_.grids)
+        for (size_t i = 0; i < grid.color_count(); ++i)
+            if (grid.float_colors)
+                grid.full_colors()[i] = 0.3f;
+            else
+                grid.half_colors()[i] = 0.3f;
+    const float color = GetParam() ? 0.3f : static_cast<float>(Imath::half(0.3f));
+    HitLayers layers;
+    layers.interpolate(samples_, hits_, 0, samples_.size(), grids_);
+    for (size_t i = 0; i < hits_.hits.size(); ++i) {
+        const MicropolygonId id = MicropolygonId::unpack(hits_.hits[i].id);
+        if (id.grid >= grids_.grids.size()) continue;
+        EXPECT_EQ(layers[i].color, V3f(color)) << i;
+        EXPECT_EQ(layers[i].opacity, V3f(grids_.grids[id.grid].opaque ? 1 : color)) << i;
+    }
+}
+
+/// One hit a sample on opaque grids that hold nothing out; then one on glass, a second hit, none.
+TEST_P(HitLayersOfRandomGrids, CoverWhereEachSampleSeesOneSurfaceThatHidesAllElse) {
+    const uint32_t opaque = 0, glass = 2;
+    const auto all_cover = [&](std::vector<uint32_t> grids, std::vector<uint32_t> first) {
+        HitBuffer hits{std::move(first), {}};
+        for (const uint32_t grid : grids) hits.hits.push_back({1, MicropolygonId{grid}.packed()});
+        HitLayers layers;
+        layers.interpolate(samples_, hits, 0, hits.size(), grids_);
+        return layers.all_cover();
+    };
+    EXPECT_TRUE(all_cover({opaque, opaque, opaque}, {0, 1, 2, 3}));
+    EXPECT_FALSE(all_cover({opaque, glass, opaque}, {0, 1, 2, 3}));
+    EXPECT_FALSE(all_cover({opaque, opaque, 1000}, {0, 1, 2, 3}));
+    EXPECT_FALSE(all_cover({opaque, opaque, opaque}, {0, 2, 3}));
+    EXPECT_FALSE(all_cover({opaque, opaque, opaque}, {0, 2, 2, 3}));
+    grids_.grids[opaque].matte = 1;
+    EXPECT_FALSE(all_cover({opaque, opaque, opaque}, {0, 1, 2, 3}));
 }
 
 TEST_P(HitLayersOfRandomGrids, AreTheLastOnesAskedFor) {
