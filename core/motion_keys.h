@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 
 namespace trapeze {
 
@@ -33,6 +35,26 @@ inline MotionSegment segment_at(float time01, int key_count) {
     const int last = key_count - 2;
     const int index = scaled >= static_cast<float>(last) ? last : scaled > 0 ? static_cast<int>(scaled) : 0;
     return {index, scaled - static_cast<float>(index)};
+}
+
+/// The time of a sample: 0 at shutter open, below 1. Times of samples that follow each other are well apart,
+/// and have nothing to do with where these go: van der Corput's sequence to base 3, shifted by `shift` (0 to
+/// below 1).
+inline float shutter_time(int sample, float shift) {
+    float place = 1.0f / 3, time = shift;
+    for (auto number = static_cast<uint32_t>(sample); number > 0; number /= 3, place /= 3)
+        time += static_cast<float>(number % 3) * place;
+    return std::min(time < 1 ? time : time - 1, 0x1.fffffep-1f);
+}
+
+/// The middle of one of so many equal parts of the shutter, and the part that a time lies in; with one part
+/// things are as they are at shutter open.
+inline float middle_of_part(size_t part, size_t parts) {
+    return parts > 1 ? (static_cast<float>(part) + 0.5f) / static_cast<float>(parts) : 0;
+}
+inline size_t part_of_shutter(float time, size_t parts) {
+    const float scaled = time * static_cast<float>(parts);
+    return scaled > 0 ? std::min(static_cast<size_t>(scaled), parts - 1) : 0;
 }
 
 }  // namespace trapeze

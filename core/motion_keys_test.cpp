@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 namespace trapeze {
 namespace {
@@ -36,6 +37,32 @@ TEST(MotionKeys, OutsideTheShutterTheEndSegmentsHold) {
     EXPECT_EQ(segment_at(-0.5f, 5).index, 0);
     EXPECT_EQ(segment_at(0.7f, 1).index, 0);
     EXPECT_EQ(segment_at(0.7f, 1).local, 0);
+}
+
+TEST(ShutterTimes, OfSamplesThatFollowEachOtherAreInDifferentParts) {
+    for (const float shift : {0.0f, 0.1f, 0.77f, 0x1.fffffep-1f})
+        for (const size_t parts : {3, 9, 27}) {
+            std::set<size_t> found;
+            for (size_t sample = 0; sample < parts; ++sample) {
+                const float time = shutter_time(static_cast<int>(sample), shift);
+                EXPECT_GE(time, 0);
+                EXPECT_LT(time, 1);
+                // Relative to the first one, whatever the shift.
+                const float from_first = time - shutter_time(0, shift) + 0.5f / static_cast<float>(parts);
+                found.insert(part_of_shutter(from_first < 0 ? from_first + 1 : from_first, parts));
+            }
+            EXPECT_EQ(found.size(), parts) << shift;
+        }
+}
+
+TEST(ShutterTimes, PartsHaveTheirMiddlesInThem) {
+    EXPECT_EQ(middle_of_part(0, 1), 0);
+    EXPECT_EQ(part_of_shutter(0.9f, 1), 0u);
+    for (const size_t parts : {2, 5, 32})
+        for (size_t part = 0; part < parts; ++part)
+            EXPECT_EQ(part_of_shutter(middle_of_part(part, parts), parts), part);
+    EXPECT_EQ(part_of_shutter(1, 4), 3u);
+    EXPECT_EQ(part_of_shutter(-1, 4), 0u);
 }
 
 }  // namespace

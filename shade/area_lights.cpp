@@ -103,18 +103,20 @@ bool is_mesh_light(const Lamp& lamp) {
 void make_samplers(Materials& materials, Textures& textures, Diagnostics* diagnostics) {
     for (Lamp* lamp : materials.lamps()) {
         if (!lamp->area || is_mesh_light(*lamp)) continue;
-        lamp->sampler = sampler_of(*lamp->area, textures);
-        if (!lamp->sampler) report_dark(*lamp->area, diagnostics);
+        lamp->samplers.clear();
+        lamp->samplers.push_back(sampler_of(*lamp->area, textures));
+        if (lamp->turns() == 0) report_dark(*lamp->area, diagnostics);
     }
 }
 
 void make_mesh_samplers(Materials& materials, const LightMeshes& meshes, Diagnostics* diagnostics) {
     for (Lamp* lamp : materials.lamps()) {
         if (!is_mesh_light(*lamp)) continue;
-        const auto mesh = meshes.find(lamp->area);
-        if (mesh != meshes.end())
-            lamp->sampler = make_mesh_sampler(mesh->second, lamp->area->shape->two_sided);
-        if (!lamp->sampler) report_dark(*lamp->area, diagnostics);
+        const auto of_light = meshes.find(lamp->area);
+        if (of_light != meshes.end())
+            for (const LightMesh& mesh : of_light->second)
+                lamp->samplers.push_back(make_mesh_sampler(mesh, lamp->area->shape->two_sided));
+        if (lamp->turns() == 0) report_dark(*lamp->area, diagnostics);
     }
 }
 

@@ -175,6 +175,68 @@ TEST(AreaLights, ParticlesAreBalls) {
                0.005, 0.1);
 }
 
+/// The mean of what a formula gives at many times of the shutter: `at(t)` is a light's way from x = 0 on,
+/// which it moves along from -2 to 2.
+std::string mean_in_shutter(const std::string& formula) {
+    return "float expected = 0, i; for (i = 0; i < 64; i += 1) { float x = -2 + 4 * (i + .5) / 64;"
+           "  expected += (" +
+           formula + ") / 64; }";
+}
+const std::string kMovesAcross = "MotionBegin [0 1] Translate -2 0 0 Translate 2 0 0 MotionEnd ";
+
+/// What shines moves by four of its widths while the shutter is open: a mesh, a ball, a deforming mesh.
+TEST(AreaLights, ThatMoveGiveTheirMeanOverTheShutter) {
+    const std::string square = mean_in_shutter(
+        "PI * polygon(P, point(x - .5, -.5, 3), point(x + .5, -.5, 3), point(x + .5, .5, 3), point(x - .5, .5, 3))");
+    const std::string ball = mean_in_shutter(
+        ".25 / (xcomp(vector(point(x, 0, 3) - P)) * xcomp(vector(point(x, 0, 3) - P)) +"
+        "  ycomp(P) * ycomp(P) + 4) * 2 / distance(point(x, 0, 3), P)");
+    for (const auto& [shape, formula] :
+         {std::pair{kMovesAcross + "Polygon \"P\" [-.5 -.5 0 .5 -.5 0 .5 .5 0 -.5 .5 0] ", square},
+          {std::string("MotionBegin [0 1] Polygon \"P\" [-2.5 -.5 0 -1.5 -.5 0 -1.5 .5 0 -2.5 .5 0] "
+                       "Polygon \"P\" [1.5 -.5 0 2.5 -.5 0 2.5 .5 0 1.5 .5 0] MotionEnd "),
+           square},
+          {kMovesAcross + "Points \"P\" [0 0 0] \"constantwidth\" [1] ", ball},
+          {"MotionBegin [0 1] Points \"P\" [-2 0 0] \"constantwidth\" [1] "
+           "Points \"P\" [2 0 0] \"constantwidth\" [1] MotionEnd ",
+           ball}}) {
+        SCOPED_TRACE(shape);
+        Case c = lit_by(arealight(shape));
+        c.options = "Shutter 0 1 ";
+        c.asker += "Attribute \"trace\" \"int samplemotion\" [1] ";
+        expect_lit(c.render(asks(formula)), 0.003, 0.08);
+    }
+}
+
+/// Whose rays all leave as the shutter opens sees lights there, too.
+TEST(AreaLights, ThatMoveAreAtShutterOpenForWhoDoesNotSampleMotion) {
+    Case c = lit_by(arealight(kMovesAcross + "Polygon \"P\" [-.5 -.5 0 .5 -.5 0 .5 .5 0 -.5 .5 0] "));
+    c.options = "Shutter 0 1 ";
+    expect_lit(c.render(asks("float expected = PI * polygon(P, point(-2.5, -.5, 3), point(-1.5, -.5, 3),"
+                             "  point(-1.5, .5, 3), point(-2.5, .5, 3));")),
+               0.003, 0.05);
+}
+
+/// A screen that moves with its light hides it at all times from all that is far behind the screen; without
+/// it there is light. The light, which is seen by rays itself, does not hide itself.
+TEST(AreaLightShadows, OfWhatMovesWithItsLightMoveWithIt) {
+    const std::string light = "Attribute \"visibility\" \"int transmission\" [1] " + kMovesAcross +
+                              "Polygon \"P\" [-.5 -.5 0 .5 -.5 0 .5 .5 0 -.5 .5 0] ";
+    const auto mean = [&](const std::string& things) {
+        Case c = lit_by(arealight(light));
+        c.options = "Shutter 0 1 ";
+        c.asker += "Attribute \"trace\" \"int samplemotion\" [1] ";
+        c.things = things;
+        return mean_red(c.render(asks("float expected = 0;")));
+    };
+    const double open = mean("");
+    EXPECT_GT(open, 0.01);
+    const std::string screen = "Polygon \"P\" [-.9 -.9 3.1 .9 -.9 3.1 .9 .9 3.1 -.9 .9 3.1] ";
+    EXPECT_EQ(mean(kMovesAcross + screen), 0);
+    EXPECT_GT(mean(screen), 0.3 * open);
+    EXPECT_LT(mean(screen), 0.9 * open);
+}
+
 /// From afar a curve is a tube, which hides its length by its width of the sky, by the sine of the angle
 /// between its way and the light's; the ribbon that the camera sees is not asked. In the last two the camera
 /// looks along it, and the receiver does not.

@@ -29,7 +29,7 @@ struct LightShape {
     static constexpr int kDefaultSamples = 16, kMostSamples = 2048;
 };
 
-/// The surface of a light of any shape, camera space at shutter open.
+/// The surface of a light of any shape at some time, in the camera's space at shutter open.
 struct LightMesh {
     /// (b - a) x (c - a) points outside.
     struct Triangle {
@@ -48,6 +48,8 @@ struct LightMesh {
     std::vector<Tube> tubes;
     std::vector<Ball> balls;
 };
-using LightMeshes = std::map<const LightInstance*, LightMesh>;
+/// Each light at shutter open, and if it moves in the middles of equal parts of the shutter, too
+/// (middle_of_part()).
+using LightMeshes = std::map<const LightInstance*, std::vector<LightMesh>>;
 
 }  // namespace trapeze

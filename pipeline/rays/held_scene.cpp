@@ -44,4 +44,10 @@ std::unique_ptr<const Scene> held_scene(const Scene& scene) {
     return copy;
 }
 
+bool rays_sample_motion(const RenderContext& context) {
+    return context.motion && std::ranges::any_of(context.scene->primitives, [](const Primitive& primitive) {
+               return primitive.attributes->rays.sample_motion;
+           });
+}
+
 }  // namespace trapeze

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
+#include "core/motion_keys.h"
 #include "core/portable_math.h"
+#include "pipeline/rays/held_scene.h"
 #include "pipeline/rays/round_shapes.h"
 #include "tessellate/tessellate.h"
 
@@ -22,6 +25,9 @@ constexpr float kAlongASide = 32;
 constexpr double kTurn = 0.15;
 /// A light has no more micropolygons than about these because they turn.
 constexpr double kMostMicropolygons = 1 << 18;
+/// A light that moves is known in so many parts of the shutter; in fewer, where that would be more
+/// micropolygons than above.
+constexpr size_t kMostParts = 64;
 /// Of dicing. Where few micropolygons do not tell how much it turns, the next ones do.
 constexpr int kMostTries = 3;
 
@@ -82,7 +88,6 @@ struct LightScene {
         }
         scene.camera_from_world = of_frame.scene->camera_from_world;
         context.scene = &scene;
-        context.motion = false;
         if (!(size > 0) || !std::isfinite(size)) return;
         Options& options = scene.options;
         constexpr int kPixels = 64;
@@ -191,13 +196,55 @@ void add_triangles(const ShadingGrid& grid, LightMesh& mesh) {
     }
 }
 
-LightMesh mesh_of(const RenderContext& of_frame, const LightInstance& light, const Shading& shading,
-                  size_t most_bytes) {
+/// A grid where it is at a time.
+void pose(const ShadingGrid& grid, float time, ShadingGrid& posed) {
+    posed = grid;
+    const MotionSegment segment = segment_at(time, static_cast<int>(grid.P.size()));
+    posed.P.resize(1);
+    if (grid.P.size() == 1) return;
+    const Triples &from = grid.P[static_cast<size_t>(segment.index)],
+                  &to = grid.P[static_cast<size_t>(segment.index) + 1];
+    for (size_t c = 0; c < 3; ++c)
+        for (size_t i = 0; i < from.c[c].size(); ++i)
+            posed.P[0].c[c][i] = from.c[c][i] + segment.local * (to.c[c][i] - from.c[c][i]);
+}
+
+void add_grid(const ShadingGrid& grid, LightMesh& mesh) {
+    if (are_tubes(*grid.primitive))
+        add_tubes(grid, mesh);
+    else
+        add_triangles(grid, mesh);
+}
+
+/// The meshes of a light that moves, behind that at shutter open: all that has been diced, and the balls.
+void add_parts_of_shutter(const RenderContext& of_frame, const LightInstance& light,
+                          const Tessellation& tessellation, std::vector<LightMesh>& meshes) {
+    const LightMesh& open = meshes.front();
+    const size_t pieces = open.triangles.size() + open.tubes.size() + open.balls.size();
+    const size_t parts = std::clamp<size_t>(
+        static_cast<size_t>(kMostMicropolygons) / std::max<size_t>(pieces, 1), 2, kMostParts);
+    meshes.resize(1 + parts);
+    DiceScratch scratch;
+    ShadingGrid grid, posed;
+    for (size_t i = 0; i < tessellation.subpatches().size() && !of_frame.is_cancelled(); ++i) {
+        tessellation.dice(i, grid, scratch);
+        for (size_t part = 0; part < parts; ++part) {
+            pose(grid, middle_of_part(part, parts), posed);
+            add_grid(posed, meshes[1 + part]);
+        }
+    }
+    for (size_t part = 0; part < parts; ++part)
+        for (const Primitive& primitive : of_frame.scene->primitives)
+            if (primitive.emitter.get() == &light && are_balls(primitive))
+                add_balls(primitive, middle_of_part(part, parts), meshes[1 + part]);
+}
+
+std::vector<LightMesh> meshes_of(const RenderContext& of_frame, const LightInstance& light,
+                                 const Shading& shading, size_t most_bytes) {
     LightScene parts(of_frame, light);
-    LightMesh mesh;
-    for (const Primitive& primitive : of_frame.scene->primitives)
-        if (primitive.emitter.get() == &light && are_balls(primitive)) add_balls(primitive, mesh);
-    if (parts.scene.primitives.empty()) return mesh;
+    std::vector<LightMesh> meshes(1);
+    LightMesh& mesh = meshes.front();
+    bool moves = false;
     TessellationOptions options;
     options.depth_heights = shading.depth_heights();
     options.most_bytes = most_bytes, options.seen_by = SeenBy::Rays;
@@ -206,18 +253,23 @@ LightMesh mesh_of(const RenderContext& of_frame, const LightInstance& light, con
         DiceScratch scratch;
         ShadingGrid grid;
         std::vector<Turning> turnings(parts.scene.primitives.size());
-        mesh.triangles.clear(), mesh.tubes.clear();
+        mesh = {};
+        for (const Primitive& primitive : of_frame.scene->primitives) {
+            if (primitive.emitter.get() != &light || !are_balls(primitive)) continue;
+            add_balls(primitive, 0, mesh);
+            moves |= of_frame.motion && primitive.key_count() > 1;
+        }
         for (size_t i = 0; i < tessellation.subpatches().size() && !of_frame.is_cancelled(); ++i) {
             tessellation.dice(i, grid, scratch);
-            if (are_tubes(*grid.primitive))
-                add_tubes(grid, mesh);
-            else
-                add_triangles(grid, mesh);
+            add_grid(grid, mesh);
+            moves |= grid.P.size() > 1;
             turnings[tessellation.subpatches()[i].primitive].add(grid);
         }
-        if (tries == kMostTries || !refine(parts, turnings)) break;
+        if (tries < kMostTries && refine(parts, turnings)) continue;
+        if (moves) add_parts_of_shutter(of_frame, light, tessellation, meshes);
+        break;
     }
-    return mesh;
+    return meshes;
 }
 
 }  // namespace
@@ -225,8 +277,13 @@ LightMesh mesh_of(const RenderContext& of_frame, const LightInstance& light, con
 void make_light_meshes(const RenderContext& context, Shading& shading, size_t most_bytes) {
     const std::vector<const LightInstance*> lights = shading.mesh_lights();
     if (lights.empty()) return;
+    // Rays meet the scene without the camera's motion, and at one time where none asks for others.
+    RenderContext of_rays = context;
+    of_rays.motion = rays_sample_motion(context);
+    const std::unique_ptr<const Scene> held = of_rays.motion ? held_scene(*context.scene) : nullptr;
+    if (held) of_rays.scene = held.get();
     LightMeshes meshes;
-    for (const LightInstance* light : lights) meshes[light] = mesh_of(context, *light, shading, most_bytes);
+    for (const LightInstance* light : lights) meshes[light] = meshes_of(of_rays, *light, shading, most_bytes);
     shading.set_light_meshes(meshes);
 }
 

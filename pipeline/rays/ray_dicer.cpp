@@ -9,16 +9,9 @@
 namespace trapeze {
 namespace {
 
-/// Whether rays leave at any other time than shutter open.
-bool samples_motion(const RenderContext& context) {
-    return context.motion && std::ranges::any_of(context.scene->primitives, [](const Primitive& primitive) {
-               return primitive.attributes->rays.sample_motion;
-           });
-}
-
 RenderContext of_rays(const RenderContext& context, const Scene* held) {
     RenderContext own = context;
-    own.motion = samples_motion(context);
+    own.motion = rays_sample_motion(context);
     if (held) own.scene = held;
     return own;
 }
@@ -49,7 +42,7 @@ struct RayDicer::Scratches {
 };
 
 RayDicer::RayDicer(const RenderContext& context, const Shading& shading, size_t most_bytes)
-    : held_(samples_motion(context) ? held_scene(*context.scene) : nullptr),
+    : held_(rays_sample_motion(context) ? held_scene(*context.scene) : nullptr),
       context_(of_rays(context, held_.get())),
       shading_(shading),
       tessellation_(context_, how_to_split(shading, most_bytes)),

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <variant>
 
+#include "core/motion_keys.h"
 #include "core/portable_math.h"
 
 namespace trapeze {
@@ -13,6 +15,20 @@ namespace {
 float of_point(const Parameter* parameter, size_t point) {
     if (!parameter || parameter->floats.empty()) return 1;
     return parameter->floats[std::min(point, parameter->floats.size() - 1)];
+}
+
+/// What a list of keys has at one of so many keys, of which its own are a part.
+template <class T>
+const T& at_key(const std::vector<T>& list, int key, int keys) {
+    return list[keys > 1 ? static_cast<size_t>(key) * (list.size() - 1) / static_cast<size_t>(keys - 1) : 0];
+}
+
+/// Where a point is at a key, camera space; nothing: there is no such point.
+std::optional<V3f> place_at(const Primitive& points, size_t point, int key, int keys) {
+    const Parameter* P = at_key(points.shape_keys, key, keys)->variables.find("P");
+    if (!P || 3 * point + 2 >= P->floats.size()) return {};
+    const V3f place(P->floats[3 * point], P->floats[3 * point + 1], P->floats[3 * point + 2]);
+    return place * at_key(points.camera_from_object, key, keys);
 }
 
 /// The middle of a ribbon at one of its rows, and half its width there.
@@ -43,19 +59,22 @@ bool are_tubes(const Primitive& primitive) {
            !primitive.shape().variables.find("N");
 }
 
-void add_balls(const Primitive& points, LightMesh& mesh) {
+void add_balls(const Primitive& points, float time, LightMesh& mesh) {
     const ParameterList& list = points.shape().variables;
-    const Parameter* P = list.find("P");
     const Parameter* width = list.find("width");
     if (!width) width = list.find("constantwidth");
     const M44f& space = points.camera_from_object.front();
     // As the camera sees them: of the mean scale.
     const double scale = portable::cbrt(std::abs(M44d(space).determinant()));
     const auto count = static_cast<size_t>(std::get<Points>(points.shape().topology).count);
-    for (size_t i = 0; P && i < count && 3 * i + 2 < P->floats.size(); ++i) {
-        const V3f place(P->floats[3 * i], P->floats[3 * i + 1], P->floats[3 * i + 2]);
+    const int keys = points.key_count();
+    const MotionSegment segment = segment_at(time, keys);
+    for (size_t i = 0; i < count; ++i) {
+        const auto from = place_at(points, i, segment.index, keys);
+        const auto to = keys > 1 ? place_at(points, i, segment.index + 1, keys) : from;
+        if (!from || !to) return;
         const double radius = std::abs(static_cast<double>(of_point(width, i))) / 2 * scale;
-        mesh.balls.push_back({place * space, static_cast<float>(radius)});
+        mesh.balls.push_back({*from + (*to - *from) * segment.local, static_cast<float>(radius)});
     }
 }
 

@@ -1,5 +1,5 @@
-/// Points on the shapes of area lights, chosen for a point that they shine on [decision 0030]. Camera space,
-/// at shutter open.
+/// Points on the shapes of area lights, chosen for a point that they shine on [decision 0030]. The camera's
+/// space at shutter open.
 #pragma once
 
 #include <memory>

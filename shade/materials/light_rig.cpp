@@ -6,6 +6,7 @@
 #include <cstring>
 #include <new>
 
+#include "core/motion_keys.h"
 #include "core/random.h"
 #include "core/ray_sequence.h"
 #include "core/scene/scene.h"
@@ -23,7 +24,7 @@ constexpr size_t kL = 0, kDirection = 3, kCl = 6, kLit = 9, kPlanes = 10;
 constexpr size_t kSampleP = 0, kSampleN = 3, kRadiance = 6, kSolidAngle = 9, kSamplePlanes = 10;
 
 /// Tells the seeds of area lights from those of other random numbers at a vertex.
-constexpr uint32_t kAreaLights = 0x6c616d70;
+constexpr uint32_t kAreaLights = 0x6c616d70, kLightTimes = 0x74696d65;
 
 /// An operand whose components differ from lane to lane and lie one plane after the other.
 vm::Operand planes_of(float* first, size_t lanes) {
@@ -55,12 +56,30 @@ void copy_operand(const vm::Operand& from, int width, size_t lanes, const vm::Op
     }
 }
 
+/// When a place on a moving light is taken for a vertex: where rays of its surface have times of their own,
+/// at one of these; for what a ray has hit when that was; else at shutter open.
+float time_of_sample(int sample, uint32_t seed, const ShadingGrid* grid) {
+    if (!grid) return 0;
+    if (grid->hit_vertex >= 0) return grid->hit_time;
+    return grid->primitive->attributes->rays.sample_motion ? shutter_time(sample, unit_float(seed)) : 0;
+}
+
 }  // namespace
 
 int Lamp::turns() const {
     if (!area) return 1;
-    if (!sampler) return 0;
-    return sampler->is_point() ? 1 : area->shape->samples;
+    for (const auto& sampler : samplers)
+        if (sampler) return sampler->is_point() ? 1 : area->shape->samples;
+    return 0;
+}
+
+float Lamp::time_near(float time) const {
+    return moves() && time > 0 ? middle_of_part(part_of_shutter(time, parts()), parts()) : 0;
+}
+
+const LightSampler* Lamp::sampler_at(float time) const {
+    if (samplers.empty()) return nullptr;
+    return samplers[moves() && time > 0 ? 1 + part_of_shutter(time, parts()) : 0].get();
 }
 
 void LightRig::start(vm::Machine& machine, const std::vector<const Lamp*>& lamps,
@@ -141,30 +160,40 @@ void LightRig::set_ray(const vm::Operand& out, bool way, const vm::Operand& P) c
 }
 
 /// Chooses a place of the light's shape for each vertex. Random numbers follow from the vertex and the lamp
-/// [decision 0019]: a vertex' places are well apart, and those of vertices have nothing in common.
-void LightRig::sample(const Turn& turn, const Lamp& lamp, const vm::Operand& P) {
+/// [decision 0019]: a vertex' places are well apart, and those of vertices have nothing in common. Returns
+/// when each is taken of a light that moves, else nothing: then rays may have times of their own.
+std::vector<float> LightRig::sample(const Turn& turn, const Lamp& lamp, const vm::Operand& P) {
     samples_.assign(kSamplePlanes * lanes_, 0);
     const auto put = [&](size_t plane, size_t lane, const V3f& v) {
         for (int k = 0; k < 3; ++k) samples_[(plane + static_cast<size_t>(k)) * lanes_ + lane] = v[k];
     };
     const bool has_normals = N_.size() == lanes_;
-    const auto of_lane = [&](size_t lane, uint32_t seed) {
+    std::vector<float> times(lamp.moves() ? lanes_ : 0);
+    const auto of_lane = [&](size_t lane, uint32_t seed, const ShadingGrid* grid) {
+        float time = 0;
+        if (lamp.moves())
+            times[lane] = time =
+                lamp.time_near(time_of_sample(turn.sample, hash(seed, turn.lamp, kLightTimes), grid));
+        const LightSampler* const sampler = lamp.sampler_at(time);
+        if (!sampler) return;
         const V3f point(vm::Run::at(P, 0, lane), vm::Run::at(P, 1, lane), vm::Run::at(P, 2, lane));
         const V3f normal = has_normals ? V3f(N_[0][lane], N_[1][lane], N_[2][lane]) : V3f(0);
         const RaySequence sequence(hash(seed, turn.lamp, kAreaLights), turn.samples);
-        const LightSample made = lamp.sampler->sample(point, normal, sequence[turn.sample]);
+        const LightSample made = sampler->sample(point, normal, sequence[turn.sample]);
         put(kSampleP, lane, made.P), put(kSampleN, lane, made.N), put(kRadiance, lane, made.radiance);
         samples_[kSolidAngle * lanes_ + lane] = std::isfinite(made.solid_angle) ? made.solid_angle : 0;
     };
     if (!surroundings_->batch)
-        for (size_t lane = 0; lane < lanes_; ++lane) of_lane(lane, hash(static_cast<uint32_t>(lane), seed_));
+        for (size_t lane = 0; lane < lanes_; ++lane)
+            of_lane(lane, hash(static_cast<uint32_t>(lane), seed_), nullptr);
     else
         for (const vm::GridSpan& span : surroundings_->batch->spans) {
             const uint32_t grid =
                 hash(static_cast<uint32_t>(span.seed), static_cast<uint32_t>(span.seed >> 32), seed_);
             for (size_t i = 0; i < static_cast<size_t>(span.shape.vertex_count()); ++i)
-                of_lane(span.first + i, hash(grid, static_cast<uint32_t>(i)));
+                of_lane(span.first + i, hash(grid, static_cast<uint32_t>(i)), span.grid);
         }
+    return times;
 }
 
 /// P and N are the sample's; "__solidangle", "__radiance" and "__area" tell the shader what it stands for.
@@ -182,7 +211,8 @@ void LightRig::set_sample(vm::Registers& registers, const Lamp& lamp) const {
             copy_operand(planes(kSolidAngle), 1, lanes_, registers.operand(parameter.id));
         if (parameter.name == "__radiance" && parameter.type == rsl::Type{rsl::Base::Color, 0})
             copy_operand(planes(kRadiance), 3, lanes_, registers.operand(parameter.id));
-        const float area = lamp.sampler->area();
+        const LightSampler* const at_open = lamp.sampler_at(0);
+        const float area = at_open ? at_open->area() : 0;
         if (parameter.name == "__area" && is_number) registers.set_uniform(parameter.id, &area);
     }
 }
@@ -195,8 +225,9 @@ Task<> LightRig::run(size_t light, Slot& slot, const vm::Operand& P) {
     registers.start(lanes_);
     lamp.shader->set_parameters(registers, {});
     set_variables(registers, lamp, P);
+    std::vector<float> times;
     if (lamp.area) {
-        sample(turn, lamp, P);
+        times = sample(turn, lamp, P);
         set_sample(registers, lamp);
     }
     if (slot.capacity < lanes_) {
@@ -217,6 +248,7 @@ Task<> LightRig::run(size_t light, Slot& slot, const vm::Operand& P) {
     context.spaces = lamp.spaces.get();
     context.light_output = &output;
     context.lights = nullptr;
+    context.ray_times = times;
     co_await lamp.shader->set_run_defaults(*machine_, registers, context, {});
     co_await machine_->run(registers, context);
 

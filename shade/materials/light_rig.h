@@ -20,7 +20,15 @@ struct Lamp {
     bool asks_surface = false;  ///< by surface(): for variables of the surface that it shines on
     /// What it shines from, where its shader asks for points of that; else null.
     const LightInstance* area = nullptr;
-    std::unique_ptr<LightSampler> sampler;  ///< of that; null where it is nothing: the light is dark then
+    /// Of that: at shutter open, and of a light that moves in the middles of equal parts of the shutter, too
+    /// (middle_of_part()). Null where it is nothing: the light is dark then.
+    std::vector<std::unique_ptr<LightSampler>> samplers;
+
+    bool moves() const { return samplers.size() > 1; }
+    /// The nearest time at which its sampler has the light just where rays meet it; 0, shutter open, is one.
+    float time_near(float time) const;
+    const LightSampler* sampler_at(float time) const;
+    size_t parts() const { return samplers.size() - 1; }
 
     /// How often the light's shader is run for a point, each time from another place.
     int turns() const;
@@ -64,7 +72,7 @@ class LightRig : public vm::Lights {
     Task<> run(size_t light, Slot& slot, const vm::Operand& P);
     void set_variables(vm::Registers& registers, const Lamp& lamp, const vm::Operand& P) const;
     void set_ray(const vm::Operand& out, bool way, const vm::Operand& P) const;
-    void sample(const Turn& turn, const Lamp& lamp, const vm::Operand& P);
+    std::vector<float> sample(const Turn& turn, const Lamp& lamp, const vm::Operand& P);
     void set_sample(vm::Registers& registers, const Lamp& lamp) const;
 
     vm::Machine* machine_ = nullptr;

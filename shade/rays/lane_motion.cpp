@@ -1,31 +1,19 @@
 #include "shade/rays/lane_motion.h"
 
-#include <algorithm>
-
 #include "core/motion_keys.h"
 #include "core/random.h"
 #include "core/scene/held_camera.h"
 #include "core/scene/shading_grid.h"
 
 namespace trapeze {
-namespace {
 
-/// The digits of a number to base 3 behind the point, in reverse.
-float radical_inverse_3(uint32_t number) {
-    float place = 1.0f / 3, sum = 0;
-    for (; number > 0; number /= 3, place /= 3) sum += static_cast<float>(number % 3) * place;
-    return sum;
-}
-
-}  // namespace
-
-LaneMotion::LaneMotion(const RayAsker& asker, const RayLane& lane)
+LaneMotion::LaneMotion(const RayAsker& asker, const RayLane& lane, std::optional<float> given)
     : grid_(lane.grid), vertex_(lane.lane - lane.first_of_grid) {
     if (!grid_) return;
     is_hit_ = grid_->hit_vertex >= 0;
-    varies_ = !is_hit_ && asker.samples_motion();
-    hit_time_ = is_hit_ ? grid_->hit_time : 0;
-    if (!varies_ && hit_time_ == 0) return;
+    varies_ = !is_hit_ && !given && asker.samples_motion();
+    only_time_ = given.value_or(is_hit_ ? grid_->hit_time : 0);
+    if (!varies_ && only_time_ == 0) return;
     shift_ = unit_float(hash(lane.seed, 7));
     keys_ = static_cast<int>(grid_->P.size());
     // Rays' own geometry has no motion of the camera in it.
@@ -43,9 +31,7 @@ V3f LaneMotion::turned_back(const V3f& direction, float time, bool diffuse) cons
 }
 
 float LaneMotion::time(int sample) const {
-    if (!varies_) return hit_time_;
-    const float time = radical_inverse_3(static_cast<uint32_t>(sample)) + shift_;
-    return std::min(time < 1 ? time : time - 1, 0x1.fffffep-1f);
+    return varies_ ? shutter_time(sample, shift_) : only_time_;
 }
 
 V3f LaneMotion::place(int key) const {

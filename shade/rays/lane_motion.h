@@ -7,6 +7,8 @@
 /// with it.
 #pragma once
 
+#include <optional>
+
 #include "core/scene/motion_turn.h"
 #include "shade/rays/ray_asker.h"
 
@@ -15,10 +17,11 @@ namespace trapeze {
 /// Of one lane in one call.
 class LaneMotion {
   public:
-    LaneMotion(const RayAsker& asker, const RayLane& lane);
+    /// `given`: when all of the lane's rays leave, if that is known before; else they have times of their own
+    /// where the surface asks for that.
+    LaneMotion(const RayAsker& asker, const RayLane& lane, std::optional<float> given = {});
 
-    /// When a ray leaves: 0 at shutter open, below 1. Times of a lane's samples are well apart from each
-    /// other and from where the rays go (van der Corput's sequence to base 3, shifted by a random number).
+    /// When a ray leaves: 0 at shutter open, below 1 (shutter_time()).
     float time(int sample) const;
     /// How far the point has come since the shutter opened; camera space at shutter open.
     V3f way(float time) const;
@@ -38,7 +41,7 @@ class LaneMotion {
     std::span<const M44f> held_;  ///< empty: positions hold no motion of the camera
     int keys_ = 1;
     bool varies_ = false;
-    float shift_ = 0, hit_time_ = 0;
+    float shift_ = 0, only_time_ = 0;
     bool is_hit_ = false;
     MotionTurn turn_;
 };

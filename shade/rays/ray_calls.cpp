@@ -253,7 +253,8 @@ RayFootprint RayCalls::footprint_of(const Call& call, const RayLane& asking, con
 void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<WalkedRay>& rays) const {
     const RayArguments& arguments = call.arguments;
     const size_t lane = asking.lane;
-    const LaneMotion motion(asker_, asking);
+    const std::span<const float> times = call.run.context().ray_times;
+    const LaneMotion motion(asker_, asking, times.empty() ? std::nullopt : std::optional(times[lane]));
     const float angle = call.angle_at(lane);
     WalkedRay ray;
     ray.segment.only = arguments.only();

@@ -162,6 +162,9 @@ struct Context {
     Rays* rays = nullptr;
     Messages* messages = nullptr;
     LightOutput* light_output = nullptr;  ///< in lights
+    /// In lights that move: when the rays of each lane leave, so that they meet the light where it is
+    /// sampled.
+    std::span<const float> ray_times = {};
     Diagnostics* diagnostics = nullptr;
     float near_clip = 0, far_clip = 1;  ///< camera-space z
     bool perspective = true;            ///< the camera's
