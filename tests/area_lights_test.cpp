@@ -191,15 +191,20 @@ TEST(AreaLights, ThatMoveGiveTheirMeanOverTheShutter) {
     const std::string ball = mean_in_shutter(
         ".25 / (xcomp(vector(point(x, 0, 3) - P)) * xcomp(vector(point(x, 0, 3) - P)) +"
         "  ycomp(P) * ycomp(P) + 4) * 2 / distance(point(x, 0, 3), P)");
-    for (const auto& [shape, formula] :
-         {std::pair{kMovesAcross + "Polygon \"P\" [-.5 -.5 0 .5 -.5 0 .5 .5 0 -.5 .5 0] ", square},
-          {std::string("MotionBegin [0 1] Polygon \"P\" [-2.5 -.5 0 -1.5 -.5 0 -1.5 .5 0 -2.5 .5 0] "
-                       "Polygon \"P\" [1.5 -.5 0 2.5 -.5 0 2.5 .5 0 1.5 .5 0] MotionEnd "),
-           square},
-          {kMovesAcross + "Points \"P\" [0 0 0] \"constantwidth\" [1] ", ball},
-          {"MotionBegin [0 1] Points \"P\" [-2 0 0] \"constantwidth\" [1] "
-           "Points \"P\" [2 0 0] \"constantwidth\" [1] MotionEnd ",
-           ball}}) {
+    for (
+        const auto& [shape, formula] :
+        {std::pair{kMovesAcross + "Polygon \"P\" [-.5 -.5 0 .5 -.5 0 .5 .5 0 -.5 .5 0] ", square},
+         {std::string("MotionBegin [0 1] Polygon \"P\" [-2.5 -.5 0 -1.5 -.5 0 -1.5 .5 0 -2.5 .5 0] "
+                      "Polygon \"P\" [1.5 -.5 0 2.5 -.5 0 2.5 .5 0 1.5 .5 0] MotionEnd "),
+          square},
+         {kMovesAcross + "Points \"P\" [0 0 0] \"constantwidth\" [1] ", ball},
+         {"MotionBegin [0 1] Points \"P\" [-2 0 0] \"constantwidth\" [1] "
+          "Points \"P\" [2 0 0] \"constantwidth\" [1] MotionEnd ",
+          ball},
+         // Half by each, of which one has more keys.
+         {"MotionBegin [0 .5 1] Translate 0 0 0 Translate 1 0 0 Translate 2 0 0 MotionEnd MotionBegin [0 1] "
+          "Points \"P\" [-2 0 0] \"constantwidth\" [1] Points \"P\" [0 0 0] \"constantwidth\" [1] MotionEnd ",
+          ball}}) {
         SCOPED_TRACE(shape);
         Case c = lit_by(arealight(shape));
         c.options = "Shutter 0 1 ";

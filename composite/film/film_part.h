@@ -27,11 +27,7 @@ struct FilmPart {
     /// Of a sample that has hits.
     SampleColor color(size_t sample, const HitLayers& layers, bool midpoint) const {
         if (stack) return stack->color(sample);
-        const size_t first = hits.first[sample];
-        if (!midpoint)
-            if (const Grid* grid = covering_grid(hits.hits[first], grids))
-                return covered(hits.hits[first], *grid, layers.color(first));
-        return resolve_layers(hits.of(sample), layers, first, grids, midpoint);
+        return resolve_layers(hits.of(sample), layers, hits.first[sample], grids, midpoint);
     }
     /// Output variables of a sample that has hits; returns the depth of the first layer that shows something.
     float variables(size_t sample, const AovLayout& layout, float* values) const {

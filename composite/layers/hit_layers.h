@@ -40,11 +40,6 @@ class HitLayers {
         return {{planes_[0][i], planes_[1][i], planes_[2][i]}, {planes_[3][i], planes_[4][i], planes_[5][i]}};
     }
 
-    V3f color(size_t index) const {
-        const size_t i = index - first_;
-        return {planes_[0][i], planes_[1][i], planes_[2][i]};
-    }
-
     /// Whether each of the samples has one hit alone, which hides all behind it whatever its colour. The
     /// planes are then those of the samples.
     bool all_cover() const { return kinds_.all_cover; }

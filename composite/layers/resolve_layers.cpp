@@ -7,6 +7,18 @@
 namespace trapeze {
 namespace {
 
+/// The grid of a hit that hides everything behind it, whatever its colour; else null.
+const Grid* covering_grid(const Hit& hit, const Grids& grids) {
+    const uint32_t number = MicropolygonId::unpack(hit.id).grid;
+    if (number >= grids.grids.size()) return nullptr;
+    const Grid& grid = grids.grids[number];
+    return grid.opaque && !grid.matte ? &grid : nullptr;
+}
+/// What a sample sees that sees such a grid: what resolve_layers() makes of it, to the bit.
+SampleColor covered(const Hit& hit, const Grid& grid, const V3f& color) {
+    return {{color.x, color.y, color.z, 1}, hit.depth, grid.primitive};
+}
+
 /// Whether a layer counts for depth and id: matte ones and those that leave no trace do not.
 bool shows(const Grid& grid, const Layer& layer) {
     return !grid.matte && (layer.opacity != V3f(0) || layer.color != V3f(0));

@@ -31,18 +31,6 @@ struct SampleColor {
 SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids,
                            bool midpoint = false);
 
-/// The grid of a hit that hides everything behind it, whatever its colour; else null.
-inline const Grid* covering_grid(const Hit& hit, const Grids& grids) {
-    const uint32_t number = MicropolygonId::unpack(hit.id).grid;
-    if (number >= grids.grids.size()) return nullptr;
-    const Grid& grid = grids.grids[number];
-    return grid.opaque && !grid.matte ? &grid : nullptr;
-}
-/// What a sample sees that sees such a grid: what resolve_layers() makes of it, to the bit.
-inline SampleColor covered(const Hit& hit, const Grid& grid, const V3f& color) {
-    return {{color.x, color.y, color.z, 1}, hit.depth, grid.primitive};
-}
-
 /// Composites as above, for hits whose layers are known: hits[0] is number `first_hit` of its buffer.
 SampleColor resolve_layers(std::span<const Hit> hits, const HitLayers& layers, size_t first_hit,
                            const Grids& grids, bool midpoint = false);

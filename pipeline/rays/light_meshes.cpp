@@ -176,44 +176,45 @@ int every_other_bit(int bits) {
 
 /// Micropolygons in the order of a Z-shaped curve: those that follow each other are neighbours in
 /// both directions, and so parts of the list are parts of the surface that are about as wide as long.
-void add_triangles(const ShadingGrid& grid, LightMesh& mesh) {
+void add_triangles(const ShadingGrid& grid, float time, LightMesh& mesh) {
     const auto add = [&](const V3f& a, const V3f& b, const V3f& c) {
         if (grid.reverse_orientation)
             mesh.triangles.push_back({a, c, b});
         else
             mesh.triangles.push_back({a, b, c});
     };
-    const Triples& P = grid.P.front();
     for (int place = 0; place < 256; ++place) {
         const int i = every_other_bit(place), j = every_other_bit(place >> 1);
         if (i >= grid.shape.nu || j >= grid.shape.nv) continue;
         std::array<V3f, 4> corners;
         for (int k = 0; k < 4; ++k)
             corners[static_cast<size_t>(k)] =
-                P.at(static_cast<size_t>(grid.shape.row_index(i + (k & 1), j + (k >> 1))));
+                place_at(grid, static_cast<size_t>(grid.shape.row_index(i + (k & 1), j + (k >> 1))), time);
         add(corners[0], corners[1], corners[2]);
         add(corners[3], corners[2], corners[1]);
     }
 }
 
-/// A grid where it is at a time.
-void pose(const ShadingGrid& grid, float time, ShadingGrid& posed) {
-    posed = grid;
-    const MotionSegment segment = segment_at(time, static_cast<int>(grid.P.size()));
-    posed.P.resize(1);
-    if (grid.P.size() == 1) return;
-    const Triples &from = grid.P[static_cast<size_t>(segment.index)],
-                  &to = grid.P[static_cast<size_t>(segment.index) + 1];
-    for (size_t c = 0; c < 3; ++c)
-        for (size_t i = 0; i < from.c[c].size(); ++i)
-            posed.P[0].c[c][i] = from.c[c][i] + segment.local * (to.c[c][i] - from.c[c][i]);
+/// What of a light is a grid, where it is at a time of the shutter.
+void add_grid(const ShadingGrid& grid, float time, LightMesh& mesh) {
+    if (are_tubes(*grid.primitive))
+        add_tubes(grid, time, mesh);
+    else
+        add_triangles(grid, time, mesh);
 }
 
-void add_grid(const ShadingGrid& grid, LightMesh& mesh) {
-    if (are_tubes(*grid.primitive))
-        add_tubes(grid, mesh);
-    else
-        add_triangles(grid, mesh);
+/// What of a light are balls, where they are at a time.
+void add_balls_of(const RenderContext& of_frame, const LightInstance& light, float time, LightMesh& mesh) {
+    for (const Primitive& primitive : of_frame.scene->primitives)
+        if (primitive.emitter.get() == &light && are_balls(primitive)) add_balls(primitive, time, mesh);
+}
+
+/// Whether the light has balls that move.
+bool balls_move(const RenderContext& of_frame, const LightInstance& light) {
+    return of_frame.motion &&
+           std::ranges::any_of(of_frame.scene->primitives, [&](const Primitive& primitive) {
+               return primitive.emitter.get() == &light && are_balls(primitive) && primitive.key_count() > 1;
+           });
 }
 
 /// The meshes of a light that moves, behind that at shutter open: all that has been diced, and the balls.
@@ -225,18 +226,14 @@ void add_parts_of_shutter(const RenderContext& of_frame, const LightInstance& li
         static_cast<size_t>(kMostMicropolygons) / std::max<size_t>(pieces, 1), 2, kMostParts);
     meshes.resize(1 + parts);
     DiceScratch scratch;
-    ShadingGrid grid, posed;
+    ShadingGrid grid;
     for (size_t i = 0; i < tessellation.subpatches().size() && !of_frame.is_cancelled(); ++i) {
         tessellation.dice(i, grid, scratch);
-        for (size_t part = 0; part < parts; ++part) {
-            pose(grid, middle_of_part(part, parts), posed);
-            add_grid(posed, meshes[1 + part]);
-        }
+        for (size_t part = 0; part < parts; ++part)
+            add_grid(grid, middle_of_part(part, parts), meshes[1 + part]);
     }
     for (size_t part = 0; part < parts; ++part)
-        for (const Primitive& primitive : of_frame.scene->primitives)
-            if (primitive.emitter.get() == &light && are_balls(primitive))
-                add_balls(primitive, middle_of_part(part, parts), meshes[1 + part]);
+        add_balls_of(of_frame, light, middle_of_part(part, parts), meshes[1 + part]);
 }
 
 std::vector<LightMesh> meshes_of(const RenderContext& of_frame, const LightInstance& light,
@@ -244,7 +241,7 @@ std::vector<LightMesh> meshes_of(const RenderContext& of_frame, const LightInsta
     LightScene parts(of_frame, light);
     std::vector<LightMesh> meshes(1);
     LightMesh& mesh = meshes.front();
-    bool moves = false;
+    bool moves = balls_move(of_frame, light);
     TessellationOptions options;
     options.depth_heights = shading.depth_heights();
     options.most_bytes = most_bytes, options.seen_by = SeenBy::Rays;
@@ -254,14 +251,10 @@ std::vector<LightMesh> meshes_of(const RenderContext& of_frame, const LightInsta
         ShadingGrid grid;
         std::vector<Turning> turnings(parts.scene.primitives.size());
         mesh = {};
-        for (const Primitive& primitive : of_frame.scene->primitives) {
-            if (primitive.emitter.get() != &light || !are_balls(primitive)) continue;
-            add_balls(primitive, 0, mesh);
-            moves |= of_frame.motion && primitive.key_count() > 1;
-        }
+        add_balls_of(of_frame, light, 0, mesh);
         for (size_t i = 0; i < tessellation.subpatches().size() && !of_frame.is_cancelled(); ++i) {
             tessellation.dice(i, grid, scratch);
-            add_grid(grid, mesh);
+            add_grid(grid, 0, mesh);
             moves |= grid.P.size() > 1;
             turnings[tessellation.subpatches()[i].primitive].add(grid);
         }

@@ -15,8 +15,8 @@ bool are_tubes(const Primitive& primitive);
 
 /// Adds a ball for each point, where it is at a time of the shutter; as large as at shutter open.
 void add_balls(const Primitive& points, float time, LightMesh& mesh);
-/// Adds the tubes about a grid of a ribbon, one a row of micropolygons; of grids that share the ribbon's
-/// width the first one does.
-void add_tubes(const ShadingGrid& ribbon, LightMesh& mesh);
+/// Adds the tubes about a grid of a ribbon, one a row of micropolygons, where they are at a time and as thick
+/// as at shutter open; of grids that share the ribbon's width the first one does.
+void add_tubes(const ShadingGrid& ribbon, float time, LightMesh& mesh);
 
 }  // namespace trapeze
