@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <utility>
 
 #include "core/portable_math.h"
+#include "core/scene/poses.h"
 
 namespace trapeze {
 namespace {
@@ -60,29 +63,43 @@ DomeMap read_dome_map(Textures& textures, const std::string& name, const SourceL
     return map;
 }
 
-std::unique_ptr<LightSampler> sampler_of(const LightInstance& light, Textures& textures) {
+/// A light that moves is known in so many parts of the shutter.
+constexpr size_t kParts = 64;
+
+/// Where the light is, camera space: as the shutter opens, and if it moves in the middles of its parts, too.
+/// Rays meet what it shines on without the camera's motion. It may be all that moves.
+std::vector<M44f> spaces_of(const LightInstance& light, const RenderContext& context) {
+    std::vector<M44f> spaces{light.shader.camera_from_shader};
+    const std::vector<M44f> poses =
+        held_poses(light.moving_space.empty() ? spaces : light.moving_space, context.scene->held_from_camera);
+    if (poses.size() > 1)
+        for (size_t part = 0; part < kParts; ++part)
+            spaces.push_back(pose_at<M44f>(poses, middle_of_part(part, kParts)));
+    return spaces;
+}
+
+/// Of all but meshes, one for each space.
+std::vector<std::unique_ptr<LightSampler>> samplers_of(const LightInstance& light, Textures& textures,
+                                                       std::span<const M44f> spaces) {
     using Kind = LightShape::Kind;
     const LightShape& shape = *light.shape;
-    const M44f& camera_from_light = light.shader.camera_from_shader;
-    switch (shape.kind) {
-        case Kind::Rect:
-        case Kind::Disk:
-            return make_flat_sampler(shape, camera_from_light);
-        case Kind::Sphere:
-            return make_sphere_sampler(camera_from_light);
-        case Kind::Cylinder:
-            return make_cylinder_sampler(camera_from_light);
-        case Kind::Distant:
-            return make_distant_sampler(shape.angle, camera_from_light);
-        case Kind::Dome: {
-            DomeMap map;
-            if (!shape.map.empty()) map = read_dome_map(textures, shape.map, light.shader.location);
-            return make_dome_sampler(map, camera_from_light);
-        }
-        case Kind::Mesh:
-            return {};
+    if (shape.kind == Kind::Dome) {
+        DomeMap map;
+        if (!shape.map.empty()) map = read_dome_map(textures, shape.map, light.shader.location);
+        return make_dome_samplers(std::move(map), spaces);
     }
-    return {};
+    std::vector<std::unique_ptr<LightSampler>> samplers;
+    for (const M44f& space : spaces) {
+        if (shape.kind == Kind::Sphere)
+            samplers.push_back(make_sphere_sampler(space));
+        else if (shape.kind == Kind::Cylinder)
+            samplers.push_back(make_cylinder_sampler(space));
+        else if (shape.kind == Kind::Distant)
+            samplers.push_back(make_distant_sampler(shape.angle, space));
+        else
+            samplers.push_back(make_flat_sampler(shape, space));
+    }
+    return samplers;
 }
 
 void report_dark(const LightInstance& light, Diagnostics* diagnostics) {
@@ -100,12 +117,11 @@ bool is_mesh_light(const Lamp& lamp) {
     return lamp.area && lamp.area->shape->kind == LightShape::Kind::Mesh;
 }
 
-void make_samplers(Materials& materials, Textures& textures, Diagnostics* diagnostics) {
+void make_samplers(Materials& materials, Textures& textures, const RenderContext& context) {
     for (Lamp* lamp : materials.lamps()) {
         if (!lamp->area || is_mesh_light(*lamp)) continue;
-        lamp->samplers.clear();
-        lamp->samplers.push_back(sampler_of(*lamp->area, textures));
-        if (lamp->turns() == 0) report_dark(*lamp->area, diagnostics);
+        lamp->samplers = samplers_of(*lamp->area, textures, spaces_of(*lamp->area, context));
+        if (lamp->turns() == 0) report_dark(*lamp->area, context.diagnostics);
     }
 }
 

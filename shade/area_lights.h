@@ -3,6 +3,7 @@
 
 #include "core/diagnostics.h"
 #include "core/scene/light_shape.h"
+#include "core/scene/render_context.h"
 #include "shade/lights/light_sampler.h"
 #include "shade/maps/textures.h"
 #include "shade/materials/material.h"
@@ -12,11 +13,10 @@ namespace trapeze {
 /// Whether the light shines from primitives of the scene.
 bool is_mesh_light(const Lamp& lamp);
 
-/// Of all area lights but those of meshes. Those without an area are dark, with a warning; diagnostics may be
-/// null.
-void make_samplers(Materials& materials, Textures& textures, Diagnostics* diagnostics);
+/// Of all area lights but those of meshes. Those without an area are dark, with a warning.
+void make_samplers(Materials& materials, Textures& textures, const RenderContext& context);
 
-/// Of those of meshes.
+/// Of those of meshes; diagnostics may be null.
 void make_mesh_samplers(Materials& materials, const LightMeshes& meshes, Diagnostics* diagnostics);
 
 }  // namespace trapeze

@@ -70,7 +70,7 @@ struct Shading::Impl {
           clouds(render.scene->options, render.diagnostics, may),
           materials(render, may),
           aovs(aov_layout(render.scene->options)) {
-        make_samplers(materials, textures, render.diagnostics);
+        make_samplers(materials, textures, render);
         if (render.diagnostics)
             report_missing_aovs(aovs, materials, render.scene->options, *render.diagnostics);
         for (uint32_t i = 0; i < render.scene->primitives.size(); ++i)

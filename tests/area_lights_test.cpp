@@ -6,53 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/rays/rays_harness.h"
+#include "tests/area_lights_harness.h"
 
 namespace trapeze::testing {
 namespace {
-
-/// What the square asks: red is found, green expected.
-std::string asks(const std::string& expected) {
-    return expected + "Ci = color(comp(diffuse(normal(0, 0, -1)), 0), expected, 1);";
-}
-
-/// A RIS light, in a block of its own.
-std::string ris(const std::string& light, const std::string& place, const std::string& parameters = "",
-                int samples = 256) {
-    return "AttributeBegin " + place + " Light \"" + light + "\" \"l\" \"int fixedSampleCount\" [" +
-           std::to_string(samples) + "] " + parameters + " AttributeEnd ";
-}
-
-/// The mean of what was found is that of what was expected within `of_mean`; a point's within `of_one`, which
-/// is some five deviations of independent samples, or less.
-void expect_lit(const Image& image, double of_mean, double of_one) {
-    double found = 0, expected = 0;
-    for (const Pixel& p : pixels(image)) {
-        if (p.alpha == 0) continue;
-        found += static_cast<double>(p.red), expected += static_cast<double>(p.green);
-        ASSERT_NEAR(p.red, p.green, of_one * static_cast<double>(p.green) + 1e-6);
-    }
-    EXPECT_GT(expected, 0);
-    EXPECT_NEAR(found, expected, of_mean * expected);
-}
-
-/// Lambert's formula: half the sum of the sides' angles, each by the cosine between N and the plane through P
-/// and the side; over pi.
-const std::string kPolygon =
-    "float side(point p, a, b) { vector u = normalize(a - p), v = normalize(b - p);"
-    "  return acos(clamp(u . v, -1, 1)) * zcomp(normalize(u ^ v)); }"
-    "float polygon(point p, a, b, c, d) { extern point P;"
-    "  return abs(side(p, a, b) + side(p, b, c) + side(p, c, d) + side(p, d, a)) / (2 * PI); } ";
-const std::string kUnitSquare =
-    "float expected = polygon(P, point(-.5, -.5, 3), point(.5, -.5, 3), point(.5, .5, 3), point(-.5, .5, 3));";
-
-Case lit_by(const std::string& lights) {
-    Case c;
-    c.may_say = "ris";
-    c.functions = kPolygon;
-    c.asker = lights;
-    return c;
-}
 
 TEST(AreaLights, ARectangleGivesLambertsFormula) {
     expect_lit(lit_by(ris("PxrRectLight", "Translate 0 0 3")).render(asks(kUnitSquare)), 0.001, 0.02);
@@ -125,15 +82,6 @@ TEST(AreaLights, ADomesMapGivesItsQuadrature) {
     expect_lit(image, 0.005, 0.25);
 }
 
-/// RSL's: the mean over the shape of the cosines over the squared distance, which is pi over the area times
-/// the form factor.
-std::string arealight(const std::string& shape, const std::string& parameters = "") {
-    return "AttributeBegin Attribute \"visibility\" \"int camera\" [0] "
-           "Attribute \"light\" \"int nsamples\" [256] "
-           "AreaLightSource \"arealight\" \"a\" " +
-           parameters + " Translate 0 0 3 " + shape + " AttributeEnd Illuminate \"a\" 1 ";
-}
-
 TEST(AreaLights, ShapesOfRslAreThoseOfTheirPrimitives) {
     const std::string square = kUnitSquare + "expected *= PI;";
     for (
@@ -173,73 +121,6 @@ TEST(AreaLights, ParticlesAreBalls) {
                                  "  ball(point(.5, -.5, 3.5), .125);"
                                  "float expected = sum / (4 * (.0625 + .25 + .015625));")),
                0.005, 0.1);
-}
-
-/// The mean of what a formula gives at many times of the shutter: `at(t)` is a light's way from x = 0 on,
-/// which it moves along from -2 to 2.
-std::string mean_in_shutter(const std::string& formula) {
-    return "float expected = 0, i; for (i = 0; i < 64; i += 1) { float x = -2 + 4 * (i + .5) / 64;"
-           "  expected += (" +
-           formula + ") / 64; }";
-}
-const std::string kMovesAcross = "MotionBegin [0 1] Translate -2 0 0 Translate 2 0 0 MotionEnd ";
-
-/// What shines moves by four of its widths while the shutter is open: a mesh, a ball, a deforming mesh.
-TEST(AreaLights, ThatMoveGiveTheirMeanOverTheShutter) {
-    const std::string square = mean_in_shutter(
-        "PI * polygon(P, point(x - .5, -.5, 3), point(x + .5, -.5, 3), point(x + .5, .5, 3), point(x - .5, .5, 3))");
-    const std::string ball = mean_in_shutter(
-        ".25 / (xcomp(vector(point(x, 0, 3) - P)) * xcomp(vector(point(x, 0, 3) - P)) +"
-        "  ycomp(P) * ycomp(P) + 4) * 2 / distance(point(x, 0, 3), P)");
-    for (
-        const auto& [shape, formula] :
-        {std::pair{kMovesAcross + "Polygon \"P\" [-.5 -.5 0 .5 -.5 0 .5 .5 0 -.5 .5 0] ", square},
-         {std::string("MotionBegin [0 1] Polygon \"P\" [-2.5 -.5 0 -1.5 -.5 0 -1.5 .5 0 -2.5 .5 0] "
-                      "Polygon \"P\" [1.5 -.5 0 2.5 -.5 0 2.5 .5 0 1.5 .5 0] MotionEnd "),
-          square},
-         {kMovesAcross + "Points \"P\" [0 0 0] \"constantwidth\" [1] ", ball},
-         {"MotionBegin [0 1] Points \"P\" [-2 0 0] \"constantwidth\" [1] "
-          "Points \"P\" [2 0 0] \"constantwidth\" [1] MotionEnd ",
-          ball},
-         // Half by each, of which one has more keys.
-         {"MotionBegin [0 .5 1] Translate 0 0 0 Translate 1 0 0 Translate 2 0 0 MotionEnd MotionBegin [0 1] "
-          "Points \"P\" [-2 0 0] \"constantwidth\" [1] Points \"P\" [0 0 0] \"constantwidth\" [1] MotionEnd ",
-          ball}}) {
-        SCOPED_TRACE(shape);
-        Case c = lit_by(arealight(shape));
-        c.options = "Shutter 0 1 ";
-        c.asker += "Attribute \"trace\" \"int samplemotion\" [1] ";
-        expect_lit(c.render(asks(formula)), 0.003, 0.08);
-    }
-}
-
-/// Whose rays all leave as the shutter opens sees lights there, too.
-TEST(AreaLights, ThatMoveAreAtShutterOpenForWhoDoesNotSampleMotion) {
-    Case c = lit_by(arealight(kMovesAcross + "Polygon \"P\" [-.5 -.5 0 .5 -.5 0 .5 .5 0 -.5 .5 0] "));
-    c.options = "Shutter 0 1 ";
-    expect_lit(c.render(asks("float expected = PI * polygon(P, point(-2.5, -.5, 3), point(-1.5, -.5, 3),"
-                             "  point(-1.5, .5, 3), point(-2.5, .5, 3));")),
-               0.003, 0.05);
-}
-
-/// A screen that moves with its light hides it at all times from all that is far behind the screen; without
-/// it there is light. The light, which is seen by rays itself, does not hide itself.
-TEST(AreaLightShadows, OfWhatMovesWithItsLightMoveWithIt) {
-    const std::string light = "Attribute \"visibility\" \"int transmission\" [1] " + kMovesAcross +
-                              "Polygon \"P\" [-.5 -.5 0 .5 -.5 0 .5 .5 0 -.5 .5 0] ";
-    const auto mean = [&](const std::string& things) {
-        Case c = lit_by(arealight(light));
-        c.options = "Shutter 0 1 ";
-        c.asker += "Attribute \"trace\" \"int samplemotion\" [1] ";
-        c.things = things;
-        return mean_red(c.render(asks("float expected = 0;")));
-    };
-    const double open = mean("");
-    EXPECT_GT(open, 0.01);
-    const std::string screen = "Polygon \"P\" [-.9 -.9 3.1 .9 -.9 3.1 .9 .9 3.1 -.9 .9 3.1] ";
-    EXPECT_EQ(mean(kMovesAcross + screen), 0);
-    EXPECT_GT(mean(screen), 0.3 * open);
-    EXPECT_LT(mean(screen), 0.9 * open);
 }
 
 /// From afar a curve is a tube, which hides its length by its width of the sky, by the sine of the angle

@@ -2,20 +2,10 @@
 
 #include <cmath>
 
-#include "core/motion_keys.h"
-#include "core/scene/held_camera.h"
+#include "core/scene/poses.h"
 
 namespace trapeze {
 namespace {
-
-/// The matrix at a time: matrices are mixed linearly between their keys, as points move between them.
-M44d mixed(std::span<const M44d> keys, float time01) {
-    if (keys.size() == 1) return keys.front();
-    const MotionSegment at = segment_at(time01, static_cast<int>(keys.size()));
-    const double part = static_cast<double>(at.local);
-    const auto index = static_cast<size_t>(at.index);
-    return keys[index] * (1 - part) + keys[index + 1] * part;
-}
 
 /// Whether a matrix does more than move; rounding is no turn.
 bool turns(const M44d& matrix) {
@@ -35,7 +25,8 @@ MotionTurn::MotionTurn(const Primitive& primitive, int keys, std::span<const M44
     const M44d first = poses.front().inverse();
     for (int key = 0; key < keys; ++key) {
         const float time = static_cast<float>(key) / static_cast<float>(keys - 1);
-        from_first_.push_back(first * mixed(poses, time) * M44d(held_at(held, key, held.empty() ? 1 : keys)));
+        from_first_.push_back(first * pose_at<M44d>(poses, time) *
+                              M44d(held_at(held, key, held.empty() ? 1 : keys)));
         any |= turns(from_first_.back());
     }
     if (!any) from_first_.clear();
@@ -43,7 +34,7 @@ MotionTurn::MotionTurn(const Primitive& primitive, int keys, std::span<const M44
 
 /// Gram and Schmidt's axes: a rotation's own, and those of what lies between two turns about one axis.
 MotionTurn::Axes MotionTurn::at(float time01) const {
-    const M44d m = mixed(from_first_, time01);
+    const M44d m = pose_at<M44d>(from_first_, time01);
     Axes axes;
     axes.x = V3d(m[0][0], m[0][1], m[0][2]).normalized();
     const V3d y(m[1][0], m[1][1], m[1][2]), z(m[2][0], m[2][1], m[2][2]);

@@ -111,10 +111,13 @@ struct Options {
     SourceLocation colors_location = {};  ///< of the last Option "ocio"
 };
 
-/// A light that a scene has made. Its space is taken at shutter open.
+/// A light that a scene has made. Its shader sees its space at shutter open.
 struct LightInstance {
     std::string handle;
     ShaderInstance shader;
+    /// Of a shape that moves by itself or with the camera: shader.camera_from_shader at kHeldKeys evenly
+    /// spaced keys of the shutter. Empty: it does not.
+    std::vector<M44f> moving_space = {};
     std::optional<LightShape> shape = {};  ///< what it shines from; nothing: its shader knows
 };
 

@@ -118,6 +118,41 @@ TEST(ReadRis, ALightOfAnObjectShinesWhereItIsPlaced) {
     EXPECT_EQ(r.attributes().lights[0]->shader.camera_from_shader.translation(), V3f(7, 1, 0));
 }
 
+/// By itself, with the object that it belongs to, or by both.
+TEST(ReadRis, ALightMovesWithItsSpace) {
+    const std::string right = "MotionBegin [0 1] Translate 0 0 0 Translate 4 0 0 MotionEnd ";
+    const std::string up = "MotionBegin [0 1] Translate 0 0 0 Translate 0 8 0 MotionEnd ";
+    const auto end_of = [&](const std::string& lights) {
+        const ReadOutcome r =
+            read_text("Shutter 0 1 WorldBegin Bxdf \"PxrDiffuse\" \"b\" " + kBall + lights + "WorldEnd");
+        const std::vector<M44f>& keys = r.attributes().lights[0]->moving_space;
+        EXPECT_TRUE(keys.empty() || keys.front() == r.attributes().lights[0]->shader.camera_from_shader);
+        return keys.empty() ? V3f(-1) : keys.back().translation();
+    };
+    const std::string light = " Light \"PxrSphereLight\" \"l\" ";
+    EXPECT_EQ(end_of(light), V3f(-1));
+    EXPECT_EQ(end_of(right + light), V3f(4, 0, 0));
+    EXPECT_EQ(end_of("ObjectBegin \"o\"" + light + "ObjectEnd " + up + "ObjectInstance \"o\" "),
+              V3f(0, 8, 0));
+    EXPECT_EQ(end_of("ObjectBegin \"o\" " + right + light + "ObjectEnd " + up + "ObjectInstance \"o\" "),
+              V3f(4, 8, 0));
+}
+
+/// As paths do: each has its time.
+TEST(ReadRis, RaysOfBxdfsMeetWhatMovesWhereverItGoes) {
+    const auto samples_motion = [&](const std::string& before) {
+        return read_text(before + "WorldBegin Bxdf \"PxrDiffuse\" \"b\" " + kBall + "WorldEnd")
+            .attributes()
+            .rays.sample_motion;
+    };
+    EXPECT_FALSE(samples_motion(""));
+    EXPECT_TRUE(samples_motion("Shutter 0 1 "));
+    EXPECT_FALSE(samples_motion("Shutter 0 1 Attribute \"trace\" \"int samplemotion\" [0] "));
+    EXPECT_FALSE(read_text("Shutter 0 1 WorldBegin Surface \"matte\" " + kBall + "WorldEnd")
+                     .attributes()
+                     .rays.sample_motion);
+}
+
 TEST(ReadRis, LightsOfUnknownNamesAreReportedAndDoNotShine) {
     const ReadOutcome r = read_ris_world(
         "Light \"PxrNoSuchLight\" \"a\"\nLight \"PxrNoSuchLight\" \"b\"\n"

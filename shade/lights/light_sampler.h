@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/math.h"
@@ -49,7 +50,9 @@ std::unique_ptr<LightSampler> make_sphere_sampler(const M44f& camera_from_light)
 std::unique_ptr<LightSampler> make_cylinder_sampler(const M44f& camera_from_light);
 std::unique_ptr<LightSampler> make_mesh_sampler(const LightMesh& mesh, bool two_sided);
 std::unique_ptr<LightSampler> make_distant_sampler(float angle, const M44f& camera_from_light);
-/// Without colours the dome is white. Null, too, where all of it is black.
-std::unique_ptr<LightSampler> make_dome_sampler(const DomeMap& map, const M44f& camera_from_light);
+/// Of a dome in each of some spaces, one for each. Without colours it is white. Null, too, where all of it is
+/// black.
+std::vector<std::unique_ptr<LightSampler>> make_dome_samplers(DomeMap map,
+                                                              std::span<const M44f> camera_from_light);
 
 }  // namespace trapeze

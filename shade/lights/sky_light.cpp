@@ -69,14 +69,15 @@ double luminance(const V3f& c) {
            0.0722 * static_cast<double>(c.z);
 }
 
-/// A dome whose cells are chosen by what they send; within a cell all solid angles are alike.
-class MappedDome final : public LightSampler {
+/// The cells of a dome's picture, which are chosen by what they send; within a cell all solid angles are
+/// alike.
+class DomeCells {
   public:
-    MappedDome(const DomeMap& map, const M44f& camera_from_light) : map_(map), space_(camera_from_light) {
+    explicit DomeCells(DomeMap map) : map_(std::move(map)) {
         double sum = 0;
-        for (int row = 0; row < map.height; ++row) {
+        for (int row = 0; row < map_.height; ++row) {
             double of_row = 0;
-            for (int column = 0; column < map.width; ++column) {
+            for (int column = 0; column < map_.width; ++column) {
                 of_row += luminance(color(row, column)) * cell(row);
                 row_sums_.push_back(of_row);
             }
@@ -85,11 +86,15 @@ class MappedDome final : public LightSampler {
         }
     }
 
-    bool is_there() const {
-        return !sums_.empty() && sums_.back() > 0 && std::isfinite(sums_.back()) && space_.is_regular();
-    }
+    bool is_there() const { return !sums_.empty() && sums_.back() > 0 && std::isfinite(sums_.back()); }
 
-    LightSample sample(const V3f&, const V3f&, const V2f& square) const override {
+    /// A direction of unit length, and what comes from there.
+    struct Place {
+        V3d way{0, 0, 1};
+        V3f radiance{0, 0, 0};
+        double solid_angle = 0;  ///< that it stands for
+    };
+    Place choose(const V2f& square) const {
         const auto [row, y] = choose(std::span(sums_), static_cast<double>(square.y));
         const auto width = static_cast<size_t>(map_.width);
         const auto [column, x] = choose(std::span(row_sums_).subspan(static_cast<size_t>(row) * width, width),
@@ -97,12 +102,9 @@ class MappedDome final : public LightSampler {
         const double height = sine_at(row) + y * (sine_at(row + 1) - sine_at(row));
         const double turn = 2 * kPi64 * (column + x) / map_.width,
                      across = std::sqrt(std::max(0.0, 1 - height * height));
-        const V3d way(across * portable::cos(turn), across * portable::sin(turn), height);
-        LightSample made;
-        made.N = narrow(-space_.to_camera(way).normalized());
-        made.radiance = color(row, column);
-        made.solid_angle = static_cast<float>(sums_.back() / luminance(made.radiance) * space_.stretch(way));
-        return made;
+        const V3f radiance = color(row, column);
+        return {V3d(across * portable::cos(turn), across * portable::sin(turn), height), radiance,
+                sums_.back() / luminance(radiance)};
     }
 
   private:
@@ -126,9 +128,28 @@ class MappedDome final : public LightSampler {
     }
 
     DomeMap map_;
-    LinearSpace space_;
     std::vector<double> sums_;      ///< up to each row
     std::vector<double> row_sums_;  ///< within its row, up to each cell
+};
+
+/// A dome's cells in a space: where it turns while the shutter is open, many have the same.
+class MappedDome final : public LightSampler {
+  public:
+    MappedDome(std::shared_ptr<const DomeCells> cells, const LinearSpace& camera_from_light)
+        : cells_(std::move(cells)), space_(camera_from_light) {}
+
+    LightSample sample(const V3f&, const V3f&, const V2f& square) const override {
+        const DomeCells::Place place = cells_->choose(square);
+        LightSample made;
+        made.N = narrow(-space_.to_camera(place.way).normalized());
+        made.radiance = place.radiance;
+        made.solid_angle = static_cast<float>(place.solid_angle * space_.stretch(place.way));
+        return made;
+    }
+
+  private:
+    std::shared_ptr<const DomeCells> cells_;
+    LinearSpace space_;
 };
 
 }  // namespace
@@ -140,11 +161,19 @@ std::unique_ptr<LightSampler> make_distant_sampler(float angle, const M44f& came
     return std::make_unique<DistantLight>(angle, along / length);
 }
 
-std::unique_ptr<LightSampler> make_dome_sampler(const DomeMap& map, const M44f& camera_from_light) {
-    if (map.colors.empty()) return std::make_unique<WhiteDome>();
-    auto light = std::make_unique<MappedDome>(map, camera_from_light);
-    if (!light->is_there()) return {};
-    return light;
+std::vector<std::unique_ptr<LightSampler>> make_dome_samplers(DomeMap map,
+                                                              std::span<const M44f> camera_from_light) {
+    std::vector<std::unique_ptr<LightSampler>> samplers(camera_from_light.size());
+    if (map.colors.empty()) {
+        for (auto& sampler : samplers) sampler = std::make_unique<WhiteDome>();
+        return samplers;
+    }
+    const auto cells = std::make_shared<const DomeCells>(std::move(map));
+    for (size_t i = 0; i < samplers.size(); ++i) {
+        const LinearSpace space(camera_from_light[i]);
+        if (cells->is_there() && space.is_regular()) samplers[i] = std::make_unique<MappedDome>(cells, space);
+    }
+    return samplers;
 }
 
 }  // namespace trapeze

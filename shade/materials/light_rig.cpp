@@ -69,7 +69,7 @@ float time_of_sample(int sample, uint32_t seed, const ShadingGrid* grid) {
 int Lamp::turns() const {
     if (!area) return 1;
     for (const auto& sampler : samplers)
-        if (sampler) return sampler->is_point() ? 1 : area->shape->samples;
+        if (sampler) return sampler->is_point() && !moves() ? 1 : area->shape->samples;
     return 0;
 }
 

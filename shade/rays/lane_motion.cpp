@@ -2,7 +2,7 @@
 
 #include "core/motion_keys.h"
 #include "core/random.h"
-#include "core/scene/held_camera.h"
+#include "core/scene/poses.h"
 #include "core/scene/shading_grid.h"
 
 namespace trapeze {

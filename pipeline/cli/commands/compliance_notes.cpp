@@ -94,8 +94,8 @@ constexpr Capability kCapabilities[] = {
      "0.01."},
     {"Area Lights", "supported with limits",
      "AreaLightSource shines from its primitives, sampled anew at each vertex (Attribute \"light\" \"nsamples\"); "
-     "\"arealight\" casts shadows of what transmission rays see. Primitives that move shine from where they are, where "
-     "Attribute \"trace\" \"samplemotion\" says so; RIS lights stand where they are at shutter open. Shaders that do not look at P shine from the middle of the first primitive, with a warning."},
+     "\"arealight\" casts shadows of what transmission rays see. What moves shines from where it is, where Attribute "
+     "\"trace\" \"samplemotion\" says so, as Bxdfs have it unless told not to. Shaders that do not look at P shine from the middle of the first primitive, with a warning."},
     {"Texture, Environment and Shadow Mapping", "supported",
      "The Make requests and what OpenImageIO reads. Numbers of 8 and 16 bits are as RISpec has them, or by the sRGB "
      "curve where Option \"color\" \"transfer\" or a \"colorspace\" asks for it (docs/colour.md). Files that do not "

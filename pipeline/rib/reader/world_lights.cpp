@@ -20,11 +20,28 @@ M44f with_origin(M44f camera_from_space, const V3f& point, const M44f& camera_fr
     return camera_from_space;
 }
 
+/// LightInstance::moving_space of a light that stands in an object's space, where the object is placed.
+std::vector<M44f> placed_poses(const LightInstance& light, const M44f& camera_from_object,
+                               const std::vector<M44f>& moving_object) {
+    std::vector<M44f> keys;
+    for (size_t key = 0; key < std::max(light.moving_space.size(), moving_object.size()); ++key)
+        keys.push_back(
+            (light.moving_space.empty() ? light.shader.camera_from_shader : light.moving_space[key]) *
+            (moving_object.empty() ? camera_from_object : moving_object[key]));
+    return keys;
+}
+
 /// Path tracers' surfaces are in the way of light unless Attribute "visibility" says otherwise.
 bool is_in_the_way(const Attributes& attributes) {
     if (attributes.user.contains("render")) return false;
     const auto visibility = attributes.user.find("visibility");
     return visibility == attributes.user.end() || !visibility->second.find("transmission");
+}
+
+/// Paths have a time each, unless Attribute "trace" says otherwise.
+bool sees_motion(const Attributes& attributes) {
+    const auto trace = attributes.user.find("trace");
+    return trace == attributes.user.end() || !trace->second.find("samplemotion");
 }
 
 }  // namespace
@@ -69,6 +86,7 @@ SceneBuilder::PlacedEmitters SceneBuilder::place_lights(const RetainedObject& ob
             break;
         }
         auto placed = std::make_shared<LightInstance>(*light);
+        placed->moving_space = placed_poses(*light, state_.camera_from_current(), state_.moving_current());
         placed->shader.camera_from_shader = placed->shader.camera_from_shader * state_.camera_from_current();
         if (placed->shape && placed->shape->kind == LightShape::Kind::Mesh)
             emitters[light.get()] = std::make_shared<Emitter>(Emitter{placed, true, true});
@@ -97,7 +115,8 @@ void SceneBuilder::place_emitter(const AttributeState& state, const Shape& shape
 void SceneBuilder::place_far_emitter(FarShape shape, float angle) {
     Emitter* const emitter = state_.attributes().emitter.get();
     if (!emitter || !emitter->is_of_ris || std::exchange(emitter->is_placed, true)) return;
-    *emitter->light = *far_light(*emitter->light, shape, state_.camera_from_current(), angle);
+    *emitter->light =
+        *far_light(*emitter->light, shape, state_.camera_from_current(), state_.moving_current(), angle);
 }
 
 /// Area lights whose block ended, and that no Illuminate ever named, would shine on themselves alone: they
@@ -118,21 +137,23 @@ void SceneBuilder::add_strays(std::vector<std::shared_ptr<const LightInstance>>&
 
 /// Adds the world's lights to all primitives. Bxdfs cast shadows of area lights, as in path tracers. Those
 /// that nothing lights have a light at the eye, so that there is something to see, and all are shaded once a
-/// pixel at least: path tracers do not look at ShadingRate.
+/// pixel at least: path tracers do not look at ShadingRate. Their rays meet what moves at times of their own.
 void SceneBuilder::light_world() {
     auto lights = state_.scope().ris.lights;
     add_strays(lights);
     const std::shared_ptr<const LightInstance> at_eye = headlight();
     const bool has_area_lights =
         std::ranges::any_of(lights, [](const auto& light) { return light->shape.has_value(); });
+    const bool has_shutter = scene_.options.shutter_close > scene_.options.shutter_open;
     std::map<std::shared_ptr<const Attributes>, std::shared_ptr<const Attributes>> lit;
     for (Primitive& primitive : scene_.primitives) {
         const Attributes& unlit = *primitive.attributes;
         const bool is_ris = unlit.surface && unlit.surface->name == "rissurface";
         const bool is_dark = is_ris && unlit.lights.empty() && lights.empty();
         const bool is_coarse = is_ris && unlit.shading_rate > 1 && !read_options_.shading_rate;
+        const bool is_moving = is_ris && has_shutter && sees_motion(unlit);
         const bool is_occluder = is_ris && has_area_lights && is_in_the_way(unlit);
-        if (lights.empty() && !is_dark && !is_coarse) continue;
+        if (lights.empty() && !is_dark && !is_coarse && !is_moving) continue;
         std::shared_ptr<const Attributes>& known = lit[primitive.attributes];
         if (!known) {
             auto made = std::make_shared<Attributes>(unlit);
@@ -141,6 +162,7 @@ void SceneBuilder::light_world() {
                     made->lights.push_back(light);
             if (is_dark) made->lights.push_back(at_eye);
             if (is_coarse) made->shading_rate = 1;
+            if (is_moving) made->rays.sample_motion = true;
             if (is_occluder) made->rays.transmission = true;
             // No shader has to be asked for an opacity that it does not change.
             if (is_occluder && !unlit.surface->parameters.find("opacity"))

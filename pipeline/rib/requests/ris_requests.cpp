@@ -118,6 +118,7 @@ void add_ris_light(LightContext& r, const std::string& handle, const ShaderInsta
         return r.report.warn_once(
             fmt::format("no light {} of RIS is known; \"{}\" does not shine", in_quotes(shader.name), handle),
             "ris-light " + shader.name);
+    light->moving_space = r.state.moving_current();
     r.add_world_light(std::move(light));
 }
 

@@ -176,7 +176,8 @@ void place_mesh_light(LightInstance& light, const Shape& shape) {
 /// The colour is that which mesh_light() has computed from intensity and exposure; a disk of a known angle
 /// takes that for its radiance, and lights by its share of the sky.
 std::shared_ptr<LightInstance> far_light(const LightInstance& light, FarShape shape,
-                                         const M44f& camera_from_shape, float angle) {
+                                         const M44f& camera_from_shape, std::vector<M44f> moving_shape,
+                                         float angle) {
     ShaderInstance from = light.shader;
     from.camera_from_shader = camera_from_shape;
     const Parameter* color = from.parameters.find("lightcolor");
@@ -193,7 +194,10 @@ std::shared_ptr<LightInstance> far_light(const LightInstance& light, FarShape sh
     made->shape->angle = half_angle(angle);
     // Exporters for Maya and Blender, whose suns shine along -z, write their matrices as they are. Not so
     // those of the later PxrDistantLight: it shines along +z.
-    if (!is_dome) made->shader.camera_from_shader = M44f().setScale(V3f(1, 1, -1)) * camera_from_shape;
+    const M44f turned = M44f().setScale(V3f(1, 1, is_dome ? 1 : -1));
+    made->shader.camera_from_shader = turned * camera_from_shape;
+    for (M44f& pose : moving_shape) pose = turned * pose;
+    made->moving_space = std::move(moving_shape);
     return made;
 }
 

@@ -31,11 +31,13 @@ std::shared_ptr<LightInstance> mesh_light(const std::string& handle, const Shade
 void place_mesh_light(LightInstance& light, const Shape& shape);
 
 /// Geometry "envsphere" and "distantlight": what a mesh light of them shines as. Angle: that which the
-/// distant one takes in the sky, in degrees; 0 if unknown. Neither has a place or a size: a dome shines from
+/// distant one takes in the sky, in degrees; 0 if unknown. `moving_shape`: camera_from_shape at the keys of
+/// LightInstance::moving_space, if it moves. Neither has a place or a size: a dome shines from
 /// all around, a direction like the sun.
 enum class FarShape { Dome, Direction };
 std::shared_ptr<LightInstance> far_light(const LightInstance& light, FarShape shape,
-                                         const M44f& camera_from_shape, float angle);
+                                         const M44f& camera_from_shape, std::vector<M44f> moving_shape,
+                                         float angle);
 
 /// The middle of the box about the shape, in its space.
 V3f middle_of(const Shape& shape);

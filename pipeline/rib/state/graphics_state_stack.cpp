@@ -1,5 +1,6 @@
 #include "pipeline/rib/state/graphics_state_stack.h"
 
+#include "core/scene/poses.h"
 #include "pipeline/rib/state/bases.h"
 
 namespace trapeze::rib {
@@ -138,6 +139,17 @@ void GraphicsStateStack::use_coordinate_system(const std::string& name) {
 /// Row vectors: p_camera = p_current * M.
 M44f GraphicsStateStack::camera_from_current() const {
     return M44f(state_.transform.at(scope_.options.shutter_open));
+}
+
+std::vector<M44f> GraphicsStateStack::moving_current() const {
+    std::vector<M44f> keys;
+    const float open = scope_.options.shutter_open, close = scope_.options.shutter_close;
+    if (!state_.transform.moves_between(open, close)) return keys;
+    for (int key = 0; key < kHeldKeys; ++key) {
+        const float part = static_cast<float>(key) / (kHeldKeys - 1);
+        keys.emplace_back(state_.transform.at(open + part * (close - open)));
+    }
+    return keys;
 }
 
 /// A negative determinant turns left-handed camera space into a right-handed one.

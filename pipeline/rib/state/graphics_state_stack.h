@@ -73,6 +73,8 @@ class GraphicsStateStack {
     const MovingTransform* named_space(const std::string& name) const;
     /// The current space as the shutter opens.
     M44f camera_from_current() const;
+    /// The same at kHeldKeys keys of the shutter; empty where nothing moves it then.
+    std::vector<M44f> moving_current() const;
     /// Handedness of the current space as the shutter opens. Camera space is left-handed (RISpec 4.1.1).
     bool is_right_handed() const;
     /// Pixels of the smallest upright rectangle round a box of the current space (xmin xmax ymin ymax zmin

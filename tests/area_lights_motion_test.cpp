@@ -1,0 +1,116 @@
+/// Area lights that move while the shutter is open, next to the mean of a formula over their way
+/// [decision 0030].
+#include "tests/area_lights_harness.h"
+
+namespace trapeze::testing {
+namespace {
+
+/// The mean of what a formula gives at many times of the shutter: `at(t)` is a light's way from x = 0 on,
+/// which it moves along from -2 to 2.
+std::string mean_in_shutter(const std::string& formula) {
+    return "float expected = 0, i; for (i = 0; i < 64; i += 1) { float x = -2 + 4 * (i + .5) / 64;"
+           "  expected += (" +
+           formula + ") / 64; }";
+}
+const std::string kMovesAcross = "MotionBegin [0 1] Translate -2 0 0 Translate 2 0 0 MotionEnd ";
+
+/// What shines moves by four of its widths while the shutter is open: a mesh, a ball, a deforming mesh.
+TEST(AreaLights, ThatMoveGiveTheirMeanOverTheShutter) {
+    const std::string square = mean_in_shutter(
+        "PI * polygon(P, point(x - .5, -.5, 3), point(x + .5, -.5, 3), point(x + .5, .5, 3), point(x - .5, .5, 3))");
+    const std::string ball = mean_in_shutter(
+        ".25 / (xcomp(vector(point(x, 0, 3) - P)) * xcomp(vector(point(x, 0, 3) - P)) +"
+        "  ycomp(P) * ycomp(P) + 4) * 2 / distance(point(x, 0, 3), P)");
+    for (
+        const auto& [shape, formula] :
+        {std::pair{kMovesAcross + "Polygon \"P\" [-.5 -.5 0 .5 -.5 0 .5 .5 0 -.5 .5 0] ", square},
+         {std::string("MotionBegin [0 1] Polygon \"P\" [-2.5 -.5 0 -1.5 -.5 0 -1.5 .5 0 -2.5 .5 0] "
+                      "Polygon \"P\" [1.5 -.5 0 2.5 -.5 0 2.5 .5 0 1.5 .5 0] MotionEnd "),
+          square},
+         {kMovesAcross + "Points \"P\" [0 0 0] \"constantwidth\" [1] ", ball},
+         {"MotionBegin [0 1] Points \"P\" [-2 0 0] \"constantwidth\" [1] "
+          "Points \"P\" [2 0 0] \"constantwidth\" [1] MotionEnd ",
+          ball},
+         // Half by each, of which one has more keys.
+         {"MotionBegin [0 .5 1] Translate 0 0 0 Translate 1 0 0 Translate 2 0 0 MotionEnd MotionBegin [0 1] "
+          "Points \"P\" [-2 0 0] \"constantwidth\" [1] Points \"P\" [0 0 0] \"constantwidth\" [1] MotionEnd ",
+          ball}}) {
+        SCOPED_TRACE(shape);
+        Case c = lit_by(arealight(shape));
+        c.options = "Shutter 0 1 ";
+        c.asker += "Attribute \"trace\" \"int samplemotion\" [1] ";
+        expect_lit(c.render(asks(formula)), 0.003, 0.08);
+    }
+}
+
+/// The path tracer's lights, of which there is no primitive. A disk in the sky that turns across is as bright
+/// as the mean of its cosines; a dome, whose half is dark, as its mean.
+TEST(AreaLights, OfThePathTracerThatMoveGiveTheirMeanOverTheShutter) {
+    const std::string square = mean_in_shutter(
+        "polygon(P, point(x - .5, -.5, 3), point(x + .5, -.5, 3), point(x + .5, .5, 3), point(x - .5, .5, 3))");
+    const std::string ball = mean_in_shutter(
+        ".25 / (xcomp(vector(point(x, 0, 3) - P)) * xcomp(vector(point(x, 0, 3) - P)) +"
+        "  ycomp(P) * ycomp(P) + 4) * 2 / distance(point(x, 0, 3), P)");
+    const std::string turns = "MotionBegin [0 1] Rotate -60 1 0 0 Rotate 60 1 0 0 MotionEnd ";
+    const std::string sun = "float s = sin(radians(.265)), expected = s * s * sin(PI / 3) / (PI / 3);";
+    const auto lit = [&](const std::string& light, const std::string& formula, double of_mean,
+                         double of_one) {
+        SCOPED_TRACE(light);
+        Case c = lit_by(light);
+        c.options = "Shutter 0 1 ";
+        c.asker += "Attribute \"trace\" \"int samplemotion\" [1] ";
+        expect_lit(c.render(asks(formula)), of_mean, of_one);
+    };
+    lit(ris("PxrRectLight", kMovesAcross + "Translate 0 0 3"), square, 0.003, 0.08);
+    lit(ris("PxrSphereLight", kMovesAcross + "Translate 0 0 3"), ball, 0.003, 0.08);
+    lit("ObjectBegin \"o\" " + ris("PxrRectLight", "Translate 0 0 2") + " ObjectEnd AttributeBegin " +
+            kMovesAcross + "Translate 0 0 1 ObjectInstance \"o\" AttributeEnd ",
+        square, 0.003, 0.08);
+    lit(ris("PxrDistantLight", turns,
+            "\"float intensity\" [1] \"float angleExtent\" [40] \"int areaNormalize\" [1] "),
+        sun, 0.003, 0.03);
+    lit("AttributeBegin Attribute \"light\" \"int nsamples\" [256] " + turns +
+            "AreaLightSource \"PxrStdAreaLight\" \"a\" Geometry \"envsphere\" AttributeEnd ",
+        "float expected = 1;", 0.002, 0.03);
+}
+
+/// With a camera that moves, and an eye that does not look at its motion: the light stands still in the
+/// world.
+TEST(AreaLights, StandStillWhereTheCameraMoves) {
+    Case c = lit_by(ris("PxrRectLight", "Translate 0 0 3"));
+    c.options = "Shutter 0 1 MotionBegin [0 1] Translate 0 0 0 Translate .2 0 0 MotionEnd ";
+    c.asker += "Attribute \"trace\" \"int samplemotion\" [1] ";
+    expect_lit(c.render(asks(kUnitSquare)), 0.001, 0.02);
+}
+
+/// Whose rays all leave as the shutter opens sees lights there, too.
+TEST(AreaLights, ThatMoveAreAtShutterOpenForWhoDoesNotSampleMotion) {
+    Case c = lit_by(arealight(kMovesAcross + "Polygon \"P\" [-.5 -.5 0 .5 -.5 0 .5 .5 0 -.5 .5 0] "));
+    c.options = "Shutter 0 1 ";
+    expect_lit(c.render(asks("float expected = PI * polygon(P, point(-2.5, -.5, 3), point(-1.5, -.5, 3),"
+                             "  point(-1.5, .5, 3), point(-2.5, .5, 3));")),
+               0.003, 0.05);
+}
+
+/// A screen that moves with its light hides it at all times from all that is far behind the screen; without
+/// it there is light. The light, which is seen by rays itself, does not hide itself.
+TEST(AreaLightShadows, OfWhatMovesWithItsLightMoveWithIt) {
+    const std::string light = "Attribute \"visibility\" \"int transmission\" [1] " + kMovesAcross +
+                              "Polygon \"P\" [-.5 -.5 0 .5 -.5 0 .5 .5 0 -.5 .5 0] ";
+    const auto mean = [&](const std::string& things) {
+        Case c = lit_by(arealight(light));
+        c.options = "Shutter 0 1 ";
+        c.asker += "Attribute \"trace\" \"int samplemotion\" [1] ";
+        c.things = things;
+        return mean_red(c.render(asks("float expected = 0;")));
+    };
+    const double open = mean("");
+    EXPECT_GT(open, 0.01);
+    const std::string screen = "Polygon \"P\" [-.9 -.9 3.1 .9 -.9 3.1 .9 .9 3.1 -.9 .9 3.1] ";
+    EXPECT_EQ(mean(kMovesAcross + screen), 0);
+    EXPECT_GT(mean(screen), 0.3 * open);
+    EXPECT_LT(mean(screen), 0.9 * open);
+}
+
+}  // namespace
+}  // namespace trapeze::testing
