@@ -20,6 +20,9 @@ struct PaperTreeOptions {
     bool orient_propagation = true;
     /// The paper's own leaves have fewer than 8 micropolygons; at most kMostSplitFrom.
     int leaf = 8;  ///< splits end at fewer micropolygons than this
+    /// A node above grids is bounded by merging its children's boxes alone, as the paper says it
+    /// [Hou10 sec. 3.3]; else from what is in its leaves, where these are few [decision 0008].
+    bool bounds_from_children = false;
 
     bool oriented() const { return bounds == Bounds::Oriented; }
 };

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "accel/builders/sah_topology.h"
+#include "core/hyper_trapezoid.h"
 
 namespace trapeze {
 namespace {
@@ -16,14 +17,16 @@ namespace {
 /// Planes are tried at the ends of so many slabs along an axis; of small nodes of fewer.
 constexpr size_t kMostKdSlabs = 32, kLeastKdSlabs = 8;
 
-/// How far beyond all boxes the first and the last plane are, by the largest coordinate: more than rounds.
-constexpr float kBesideBoxes = 0x1p-20f;
+/// How far beyond all boxes the first and the last plane are, by the largest coordinate: more than boxes are
+/// grown by for rounding, or what touches a cell would be on both sides of any plane there.
+constexpr float kBesideBoxes = 4 * kBoundRounding;
 
 /// References from which one node's sums are made in parallel, in parts that do not depend on threads.
 constexpr size_t kParallelSumsFrom = 1 << 15;
 
-/// A step through a node of the tree, a plane and two depths, takes as long as so many tests.
-constexpr double kStepCost = .5;
+/// A step through a node of the tree, with the memory that it reads, counts as so many tests: with half a
+/// test trees were built in twice the time and took twice the memory, for rays that took as long.
+constexpr double kStepCost = 2;
 
 /// The planes of one node along one axis, and the weights of what begins and ends between them.
 struct AxisPlanes {
@@ -107,6 +110,8 @@ class BoxOverTime {
 /// Sums of a node's references over the planes of all axes.
 struct PlaneSums {
     std::array<AxisPlanes, 3> axis;
+    /// What references reach beyond their boxes: a plane that close by has them on both sides.
+    float margin = 0;
 
     void add(const KdReference& reference, std::span<const Box3f> keys, float pose_time,
              KdTreeOptions::Weight weight) {
@@ -122,12 +127,12 @@ struct PlaneSums {
             if (planes.count == 0) continue;
             // Planes that a side moves across are looked at one by one. At those beyond it counts as a whole:
             // one entry, which consider_planes_of() carries on to the planes that follow.
-            const auto low = box.range(&Box3f::min, k, reference.box.min[k]);
+            const auto low = box.range(&Box3f::min, k, reference.box.min[k] - margin);
             const size_t whole_from = planes.first_above(low.most);
             for (size_t p = planes.first_above(low.least); p < whole_from; ++p)
                 planes.low_part[p] += counts(when_at_or_below(keys, k, planes.at(p) - low.shift, when));
             planes.low_from[whole_from] += whole;
-            const auto high = box.range(&Box3f::max, k, reference.box.max[k]);
+            const auto high = box.range(&Box3f::max, k, reference.box.max[k] + margin);
             const size_t whole_to = planes.end_below(high.least), any_to = planes.end_below(high.most);
             for (size_t p = whole_to; p < any_to; ++p)
                 planes.high_part[p] += counts(when_at_or_above(keys, k, planes.at(p) - high.shift, when));
@@ -221,12 +226,15 @@ KdVote KdPlanes::vote(std::span<const KdReference> references, const Box3f& cell
     // Planes lie in the box of those who vote, hence a second pass over the references.
     PlaneSums zero;
     const size_t slabs = std::clamp(references.size(), kLeastKdSlabs, kMostKdSlabs);
-    for (int k = 0; k < 3; ++k) {
-        // A plane at a side of a box leaves its owner on both sides: the first and last are a little beyond,
-        // and cut off what is empty.
-        const float beside = kBesideBoxes * std::max(std::abs(extent.min[k]), std::abs(extent.max[k]));
+    float largest = 0;
+    for (int k = 0; k < 3; ++k)
+        largest = std::max({largest, std::abs(extent.min[k]), std::abs(extent.max[k])});
+    // A plane at a side of a box leaves its owner on both sides: the first and last are a little beyond, and
+    // cut off what is empty.
+    const float beside = kBesideBoxes * largest;
+    zero.margin = beside / 2;
+    for (int k = 0; k < 3; ++k)
         zero.axis[static_cast<size_t>(k)] = AxisPlanes(extent.min[k] - beside, extent.max[k] + beside, slabs);
-    }
     const PlaneSums sums = sum_in_parts(references, zero, [&](const KdReference& r, PlaneSums& sum) {
         if (!r.guest || guests_too) sum.add(r, boxes_.keys(r.item), pose_time(r.when), options_.weight);
     });

@@ -124,6 +124,25 @@ TEST(KdTopology, DividesWaysThatAreEmptyAtThePlaneTime) {
     }
 }
 
+/// A slanted wall of rows far away: what touches a plane reaches to its other side by rounding. Planes just
+/// beside a row must not have it on both sides again and again, until there is no budget left.
+TEST(KdTopology, DividesRowsThatTouchItsPlanes) {
+    GridMaker maker;
+    for (int n = 0; n < 9; ++n)
+        maker.add(16, 16, 1, [n](int i, int j, float) {
+            const float x = static_cast<float>(16 * (n % 3) + i), y = static_cast<float>(16 * (n / 3) + j);
+            return V3f(x - 24, .8f * y - 10, 45 - .15f * y);
+        });
+    const SweptBoxes boxes(maker.grids(), summaries_along_axes(maker.grids()));
+    const KdTopology topology = build_kd_topology(maker.grids(), boxes, {});
+    EXPECT_FALSE(topology.lacked_budget);
+    EXPECT_LT(topology.references.size(), 5 * boxes.size());
+    size_t largest = 0;
+    for (size_t i = 0; i + 1 < topology.leaf_first.size(); ++i)
+        largest = std::max<size_t>(largest, topology.leaf_first[i + 1] - topology.leaf_first[i]);
+    EXPECT_LT(largest, 10u);
+}
+
 TEST(KdTree, ShowsTransparentHitsOnce) {
     Noise noise;
     GridMaker maker;

@@ -97,7 +97,8 @@ class Bounding {
     HyperTrapezoid union_in(const Frame& frame, const Part& part, const HyperTrapezoid& a,
                             const HyperTrapezoid& b) const {
         HyperTrapezoid both{frame, std::vector<Box3f>(static_cast<size_t>(top_.key_count))};
-        if (part.leaf_count > kFromLeavesUpTo || (a.frame == frame && b.frame == frame)) {
+        if (options_.bounds_from_children || part.leaf_count > kFromLeavesUpTo ||
+            (a.frame == frame && b.frame == frame)) {
             both.merge(a);
             both.merge(b);
             return both;

@@ -8,7 +8,9 @@
 #include <array>
 #include <atomic>
 #include <map>
+#include <tuple>
 
+#include "pipeline/compare/frame_parts.h"
 #include "pipeline/compare/occlusion_rays.h"
 #include "pipeline/compare/sample_groups.h"
 #include "pipeline/frame/cost/stopwatch.h"
@@ -29,17 +31,40 @@ std::string pattern_name(const MethodSpec& pattern) {
     return spec_text(pattern, find_named(sample_patterns(), pattern.name)->options);
 }
 
-/// Says which methods may take more than the budget, before they do.
+/// Says which methods are measured in parts of the picture, and which may take more than the budget, before
+/// they do.
 void tell_of_memory(const SharedFrame& frame, const std::vector<Sampler>& samplers) {
+    Diagnostics& diagnostics = *frame.context.diagnostics;
+    const size_t grids = frame.grids.bytes();
     for (const Sampler& sampler : samplers) {
-        const size_t bytes = frame.grids.bytes() + sampler.build_memory().bytes(frame.grids);
-        if (bytes <= frame.memory_budget) continue;
-        frame.context.diagnostics->warning(
-            {},
-            fmt::format("{} may take {} MiB with its grids while it is built, more than the budget of {} MiB",
-                        sampler.name(), bytes >> 20, frame.memory_budget >> 20),
-            kTooLittleMemory);
+        const BuildMemory memory = sampler.build_memory();
+        const std::vector<FramePart> parts = parts_of(frame, memory);
+        size_t most = 0;
+        for (const FramePart& part : parts) most = std::max(most, part.build_bytes);
+        if (parts.size() > 1)
+            diagnostics.note(
+                {},
+                fmt::format("{} is measured in {} parts of the picture: in one it may take {} "
+                            "MiB with its grids, more than the budget of {} MiB",
+                            sampler.name(), parts.size(), (grids + memory.bytes(frame.grids)) >> 20,
+                            frame.memory_budget >> 20),
+                "method-parts");
+        if (grids + most > frame.memory_budget)
+            diagnostics.warning(
+                {},
+                fmt::format("{} may take {} MiB with its grids while it is built, more than the "
+                            "budget of {} MiB",
+                            sampler.name(), (grids + most) >> 20, frame.memory_budget >> 20),
+                kTooLittleMemory);
     }
+}
+
+/// Adds what was built for a part of a picture to that of others, of which one is there at a time. The cost
+/// by the surface area heuristic is that of one tree.
+void add_part(const BuildStats& part, BuildStats& all) {
+    const uint64_t most = std::max(all.tree_bytes, part.tree_bytes);
+    all += part;
+    all.tree_bytes = most, all.tree_sah_cost = 0;
 }
 
 /// All methods at one sample rate.
@@ -74,13 +99,29 @@ class RateRun {
     }
     void take_turn(size_t method) {
         MethodResult& result = results_[method];
-        if (result.variance > 0) return take_adaptive_turn(result);
+        const std::vector<FramePart> parts = parts_of(frame_, result.sampler.build_memory());
+        result.build_seconds.push_back(0), result.resolve_seconds.push_back(0);
+        result.parts = parts.size();
+        result.sample = {}, result.hits = 0, result.build = {};
+        for (const FramePart& part : parts) {
+            if (result.variance > 0)
+                take_adaptive(result, part);
+            else
+                take_part(result, part);
+        }
+    }
+
+    std::vector<MethodResult>& results() { return results_; }
+
+  private:
+    /// A part's share of a turn, which is the last of all.
+    void take_part(MethodResult& result, const FramePart& part) {
         const SamplePattern& pattern = *patterns_[result.pattern];
-        const auto visibility = prepare(result, context_);
+        const auto visibility = prepare(result, part, context_);
         Stopwatch watch;
         result.tile_side = visibility->tile_side();
 
-        SampleGroups& groups = groups_of(result);
+        SampleGroups& groups = groups_of(result, part);
         tbb::enumerable_thread_specific<Resolver> resolvers;
         double seconds = 0;
         for (size_t g = 0; g < groups.count() && !context_.is_cancelled(); ++g) {
@@ -96,18 +137,14 @@ class RateRun {
             tbb::parallel_for(size_t{0}, tiles.size(), resolve, tbb::simple_partitioner());
             seconds += watch.lap();
         }
-        result.resolve_seconds.push_back(seconds);
-        result.sample = {}, result.hits = 0;
+        result.resolve_seconds.back() += seconds;
         for (const Resolver& resolver : resolvers) {
             result.sample += resolver.stats;
             result.hits += resolver.hit_count;
         }
-        if (!occlusion_rays_.empty()) trace_occlusion(*visibility, result);
+        if (!occlusion_rays_.empty() && result.parts == 1) trace_occlusion(*visibility, result);
     }
 
-    std::vector<MethodResult>& results() { return results_; }
-
-  private:
     MethodResult& add(const Sampler& sampler, SampleRate rate) {
         MethodResult& result = results_.emplace_back();
         result.sampler = sampler;
@@ -119,12 +156,17 @@ class RateRun {
         return result;
     }
 
-    std::unique_ptr<Visibility> prepare(MethodResult& result, const RenderContext& context) const {
+    std::unique_ptr<Visibility> prepare(MethodResult& result, const FramePart& part,
+                                        const RenderContext& context) const {
         Stopwatch watch;
-        auto visibility = result.sampler.prepare(context, frame_.grids);
+        auto visibility = result.sampler.prepare(context, *part.grids);
         const double prepared = watch.lap();
-        result.build = visibility->build_stats();
-        result.build_seconds.push_back(prepared - result.build.setup_seconds);
+        const BuildStats built = visibility->build_stats();
+        result.build_seconds.back() += prepared - built.setup_seconds;
+        if (result.parts == 1)
+            result.build = built;
+        else
+            add_part(built, result.build);
         return visibility;
     }
 
@@ -161,25 +203,27 @@ class RateRun {
     }
 
     /// As a render has it: where more samples are taken depends on what the film makes of the first ones.
-    void take_adaptive_turn(MethodResult& result) const {
+    void take_adaptive(MethodResult& result, const FramePart& part) const {
         const RenderContext context = frame_.adaptive_context(result.rate, result.variance);
         const auto pattern = result.sampler.make_pattern(context);
-        const auto visibility = prepare(result, context);
+        const auto visibility = prepare(result, part, context);
         Film film(context);
         FrameStats stats;
-        resolve_tiles(context, frame_.pixels, frame_.grids, *visibility, *pattern, film, stats, [] {},
+        resolve_tiles(context, part.pixels, *part.grids, *visibility, *pattern, film, stats, [] {},
                       {{context.most_layers}});
-        result.resolve_seconds.push_back(stats.seconds.trace);
-        result.sample = stats.sample;
+        result.resolve_seconds.back() += stats.seconds.trace;
+        result.sample += stats.sample;
     }
 
     /// Methods of one pattern and tile size share their samples.
-    SampleGroups& groups_of(const MethodResult& result) {
-        const auto key = std::pair{result.pattern, result.tile_side};
+    SampleGroups& groups_of(const MethodResult& result, const FramePart& part) {
+        const PixelRect& p = part.pixels;
+        const auto key = std::tuple{result.pattern, result.tile_side, std::array{p.x0, p.y0, p.x1, p.y1}};
         const auto found = groups_.find(key);
         if (found != groups_.end()) return found->second;
-        return groups_
-            .emplace(key, SampleGroups(frame_.pixels, result.tile_side, result.rate.per_pixel(), bytes_each_))
+        // Of a part they are made again for each method and turn: those of all parts would take too much.
+        if (result.parts > 1) groups_.clear();
+        return groups_.emplace(key, SampleGroups(p, result.tile_side, result.rate.per_pixel(), bytes_each_))
             .first->second;
     }
 
@@ -190,7 +234,7 @@ class RateRun {
     std::vector<SpaceRay> occlusion_rays_;
     std::vector<MethodResult> results_;
     std::map<std::string, std::unique_ptr<SamplePattern>> patterns_;
-    std::map<std::pair<std::string, int>, SampleGroups> groups_;
+    std::map<std::tuple<std::string, int, std::array<int, 4>>, SampleGroups> groups_;
 };
 
 }  // namespace

@@ -22,11 +22,13 @@ struct MethodResult {
     SampleRate rate;              ///< of adaptive sampling: at most
     float variance = 0;           ///< that adaptive sampling is to reach; 0: all pixels have all samples
     std::vector<double> build_seconds, resolve_seconds;  ///< wall clock, by round
-    BuildStats build;
+    /// Of the picture, in which the method fits the memory (frame_parts.h); times and counts are of all.
+    size_t parts = 1;
+    BuildStats build;    ///< its tree_bytes are of the part that has most
     SampleStats sample;  ///< counts of one round; every round's are the same
     uint64_t hits = 0;   ///< hits found and kept: up to the first opaque one of each sample
-    /// Occlusion rays (occlusion_rays.h), where they were asked for and the method takes them: wall clock by
-    /// round, counts of one round, and how many rays met something.
+    /// Occlusion rays (occlusion_rays.h), where they were asked for and the method takes them, and has no
+    /// parts, as they go anywhere: wall clock by round, counts of one round, and how many rays met something.
     std::vector<double> occlusion_seconds;
     SampleStats occlusion;
     uint64_t occluded = 0;

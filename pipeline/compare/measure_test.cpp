@@ -7,6 +7,8 @@
 
 #include "pipeline/compare/compare_harness.h"
 #include "pipeline/compare/occlusion_rays.h"
+#include "pipeline/compare/peak_memory.h"
+#include "pipeline/compare/pictures.h"
 #include "pipeline/compare/results_json.h"
 #include "pipeline/compare/sample_groups.h"
 
@@ -170,18 +172,78 @@ TEST(Measure, AMethodWhoseTurnTookTooLongTakesNoOther) {
         EXPECT_EQ(result.resolve_seconds.size(), 3u);
 }
 
+/// What the grids and the default tree take, and a budget that holds hardly more.
+size_t bytes_for_few(const SharedFrame& frame, const std::vector<Sampler>& samplers) {
+    return frame.grids.bytes() + samplers[0].build_memory().bytes(frame.grids);
+}
+
+TEST(Measure, AMethodThatTakesTooMuchMemoryIsMeasuredInParts) {
+    SharedScene shared("defocus_motion.rib");
+    const SharedFrame& frame = *shared.frame;
+    const auto samplers = samplers_of({"raytrace", "raytrace:tree=mbkd", "interval"});
+    MeasureSettings settings;
+    settings.rounds = 2;
+    settings.occlusion = true;
+    const auto whole = measure(frame, samplers, {{2, 2}}, settings);
+    EXPECT_EQ(shared.messages.find("measured in"), std::string::npos) << shared.messages;
+    shared.frame->memory_budget = bytes_for_few(frame, samplers);
+    const auto parts = measure(frame, samplers, {{2, 2}}, settings);
+    EXPECT_NE(shared.messages.find("raytrace:tree=mbkd is measured in"), std::string::npos)
+        << shared.messages;
+    ASSERT_EQ(parts.size(), whole.size());
+    EXPECT_EQ(parts[0].parts, 1u);
+    EXPECT_GT(parts[1].parts, 1u);
+    for (size_t i = 0; i < parts.size(); ++i) {
+        EXPECT_EQ(whole[i].parts, 1u);
+        EXPECT_EQ(parts[i].build_seconds.size(), 2u);
+        EXPECT_EQ(parts[i].hits, whole[i].hits) << parts[i].method;
+        EXPECT_EQ(parts[i].sample.rays, whole[i].sample.rays);
+        EXPECT_EQ(parts[i].sample.predicate_hits > 0, true);
+    }
+    EXPECT_LT(parts[1].build.tree_bytes, whole[1].build.tree_bytes);
+    EXPECT_FALSE(whole[1].occlusion_seconds.empty());
+    EXPECT_TRUE(parts[1].occlusion_seconds.empty()) << "they go anywhere";
+    EXPECT_EQ(to_json(parts[1])["parts"], parts[1].parts);
+}
+
+TEST(Measure, PicturesOfPartsAreThoseOfTheWhole) {
+    SharedScene shared("defocus_motion.rib");
+    const auto samplers = samplers_of({"raytrace", "raytrace:tree=mbkd"});
+    for (const float variance : {0.0f, 1e-3f}) {
+        shared.frame->memory_budget = ~size_t{0};
+        const auto whole = make_picture(*shared.frame, samplers[1], {4, 4}, {}, variance);
+        shared.frame->memory_budget = bytes_for_few(*shared.frame, samplers);
+        const auto parts = make_picture(*shared.frame, samplers[1], {4, 4}, {}, variance);
+        ASSERT_TRUE(whole && parts);
+        EXPECT_EQ(whole->image.rgba, parts->image.rgba) << variance;
+        EXPECT_EQ(whole->heat.samples, parts->heat.samples);
+    }
+}
+
+/// What is freed meanwhile counts.
+TEST(PeakMemory, IsOfWhatWasThereAtOnce) {
+    {
+        const PeakMemory none;
+        if (!none.bytes()) GTEST_SKIP() << "the system does not tell";
+        EXPECT_LT(*none.bytes(), size_t{1} << 20);
+    }
+    constexpr size_t kBytes = size_t{64} << 20;
+    const PeakMemory peak;
+    { std::vector<char> large(kBytes, 1); }
+    EXPECT_GT(*peak.bytes(), kBytes * 9 / 10);
+    EXPECT_LT(*peak.bytes(), kBytes * 3 / 2);
+}
+
 TEST(Measure, AMethodThatMayTakeTooMuchMemoryIsNamedBefore) {
     SharedScene shared("quadric_sphere.rib");
     const SharedFrame& frame = *shared.frame;
-    const auto samplers = samplers_of({"raytrace", "raytrace:tree=mbkd,duplicates=64"});
-    const size_t few = frame.grids.bytes() + samplers[0].build_memory().bytes(frame.grids);
+    const auto samplers = samplers_of({"raytrace", "raytrace:tree=loose"});  // voxels are there in any case
+    const size_t few = bytes_for_few(frame, samplers);
     shared.frame->memory_budget = few;
     EXPECT_EQ(measure(frame, samplers, {{1, 1}}, {1}).size(), 2u);
-    EXPECT_EQ(shared.diagnostics.count(Severity::Warning), 1u);
-    EXPECT_EQ(shared.messages.find("tree=wide"), std::string::npos);
-    EXPECT_NE(shared.messages.find("raytrace:tree=mbkd,duplicates=64 may take"), std::string::npos)
-        << shared.messages;
-    shared.frame->memory_budget = few - 1;
+    EXPECT_EQ(shared.diagnostics.count(Severity::Warning), 1u) << shared.messages;
+    EXPECT_NE(shared.messages.find("raytrace:tree=loose may take"), std::string::npos) << shared.messages;
+    shared.frame->memory_budget = frame.grids.bytes();
     measure(frame, samplers, {{1, 1}}, {1});
     EXPECT_EQ(shared.diagnostics.count(Severity::Warning), 3u);
 }

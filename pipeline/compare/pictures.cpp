@@ -1,7 +1,10 @@
 #include "pipeline/compare/pictures.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "pipeline/compare/frame_parts.h"
+#include "pipeline/compare/peak_memory.h"
 #include "pipeline/frame/cost/progress.h"
 #include "pipeline/frame/tiles/tile_order.h"
 
@@ -16,19 +19,26 @@ std::optional<MethodPicture> resolve(const SharedFrame& frame, const RenderConte
                                      const Sampler& sampler, const std::function<void(double)>& on_progress,
                                      bool with_heat) {
     const auto pattern = sampler.make_pattern(context);
-    const auto visibility = sampler.prepare(context, frame.grids);
-    if (context.is_cancelled()) return {};
     HeatMap heat(with_heat ? frame.pixels : PixelRect{});
     Film film(context);
     FrameStats stats;
     Progress progress(on_progress);
-    progress.begin_part(
-        0, 1, tiles_of(frame.pixels, context.sample_levels > 1 ? kTileSide : visibility->tile_side()).size());
-    resolve_tiles(context, frame.pixels, frame.grids, *visibility, *pattern, film, stats,
-                  [&progress] { progress.step(); },
-                  {{context.most_layers}, TileOrder::Rows, with_heat ? &heat : nullptr});
+    std::optional<size_t> most_bytes;
+    const std::vector<FramePart> parts = parts_of(frame, sampler.build_memory());
+    for (size_t i = 0; i < parts.size() && !context.is_cancelled(); ++i) {
+        const FramePart& part = parts[i];
+        const PeakMemory peak;
+        const auto visibility = sampler.prepare(context, *part.grids);
+        if (const auto bytes = peak.bytes()) most_bytes = std::max(most_bytes.value_or(0), *bytes);
+        progress.begin_part(
+            static_cast<double>(i) / parts.size(), static_cast<double>(i + 1) / parts.size(),
+            tiles_of(part.pixels, context.sample_levels > 1 ? kTileSide : visibility->tile_side()).size());
+        resolve_tiles(context, part.pixels, *part.grids, *visibility, *pattern, film, stats,
+                      [&progress] { progress.step(); },
+                      {{context.most_layers}, TileOrder::Rows, with_heat ? &heat : nullptr});
+    }
     if (context.is_cancelled()) return {};
-    return MethodPicture{film.finish(), std::move(heat)};
+    return MethodPicture{film.finish(), std::move(heat), most_bytes};
 }
 
 /// The part of a map that a picture shows: samples are taken beyond its border too.

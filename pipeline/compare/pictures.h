@@ -17,6 +17,8 @@ namespace trapeze {
 struct MethodPicture {
     Image image;
     HeatMap heat;  ///< of the picture's pixels
+    /// The most memory that was taken while the method was prepared; nothing where that is not known.
+    std::optional<size_t> build_peak_bytes = {};
 };
 
 /// Renders the frame as a method sees it at a sample rate, or with adaptive samples for a `variance` above 0,

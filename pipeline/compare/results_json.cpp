@@ -44,7 +44,8 @@ nlohmann::ordered_json to_json(const MethodResult& r) {
                                    {"build_bound_seconds", r.build.phases.bound},
                                    {"bytes_per_micropolygon", r.bytes_per_micropolygon()},
                                    {"micropolygons", r.micropolygons},
-                                   {"tile_side", r.tile_side}};
+                                   {"tile_side", r.tile_side},
+                                   {"parts", r.parts}};
     if (r.occlusion.rays == 0) return figures;
     figures["occlusion_seconds"] = r.occlusion_median();
     figures["occlusion_rays"] = r.occlusion.rays;
@@ -66,6 +67,7 @@ nlohmann::ordered_json to_json(const Comparison& c) {
     for (const ComparedMethod& method : c.methods) {
         json result = to_json(method.result);
         result["ratio_to_baseline"] = method.ratio;
+        if (const auto peak = method.picture.build_peak_bytes) result["build_peak_bytes"] = *peak;
         result["rmse"] = method.rmse;
         result["flip"] = method.flip;
         results.push_back(std::move(result));

@@ -82,6 +82,7 @@ std::optional<SharedFrame> share_frame(Scene&& scene, const RenderSettings& sett
     } while (!frame.context.is_cancelled() && shading.found_endless_loops());
     if (frame.context.is_cancelled()) return {};
     shading.report_displacement_bounds();
+    frame.subpatches = tessellation.subpatches();
     frame.stats = recorder.finish(frame.context);
     frame.stats.grid_bytes = frame.grids.bytes();
     frame.memory_budget = budget;

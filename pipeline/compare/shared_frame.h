@@ -4,10 +4,12 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/grid.h"
 #include "core/scene/render_context.h"
 #include "pipeline/frame/render_frame.h"
+#include "tessellate/tessellate.h"
 
 namespace trapeze {
 
@@ -24,8 +26,9 @@ struct SharedFrame {
     RenderContext context;  ///< of that scene, at the scene's own sample rate
     PixelRect pixels;       ///< those whose samples count: the crop and what the filter reaches
     Grids grids;
-    FrameStats stats;                   ///< of tessellation and shading
-    size_t memory_budget = ~size_t{0};  ///< in bytes, for grids and what a method makes of them
+    std::vector<SubpatchInfo> subpatches;  ///< that the grids are of, by Grid::ordinal
+    FrameStats stats;                      ///< of tessellation and shading
+    size_t memory_budget = ~size_t{0};     ///< in bytes, for grids and what a method makes of them
 
     /// The context at another sample rate. What is diced and shaded depends on no sample rate, so the grids
     /// serve every one.

@@ -53,6 +53,12 @@ const std::vector<TableColumn>& table_columns() {
          [](const M& m) { return m.result.nodes_per_sample(); }, counted_text},
         {"B/mpoly", "Bytes built, a micropolygon.",
          [](const M& m) { return m.result.bytes_per_micropolygon(); }, counted_text},
+        {"peak B/mpoly", "The most bytes taken while building, a micropolygon.",
+         [](const M& m) {
+             const double peak = static_cast<double>(m.picture.build_peak_bytes.value_or(0));
+             return m.result.micropolygons > 0 ? peak / static_cast<double>(m.result.micropolygons) : 0;
+         },
+         counted_text},
         {"RMSE", "Root of the mean squared difference to the reference, linear red, green, blue.",
          [](const M& m) { return m.rmse; }, number_text},
         {"FLIP",

@@ -56,13 +56,15 @@ bool can_split(const PixelRect& r) {
 }  // namespace
 
 size_t estimated_bytes(const SubpatchInfo& subpatch, const RegionLimits& limits) {
+    const size_t of_method =
+        limits.build.bytes(static_cast<size_t>(subpatch.shape.micropolygon_count()), subpatch.key_count);
+    if (!limits.with_grids) return of_method;
     Grid grid;
     grid.shape = subpatch.shape;
     grid.key_count = subpatch.key_count;
     grid.opaque = false;
     grid.aov_channels = static_cast<uint8_t>(limits.aov_channels);
-    return grid.bytes() + 2 * 64 /* alignment of its two arrays */ +
-           limits.build.bytes(static_cast<size_t>(grid.shape.micropolygon_count()), grid.key_count);
+    return grid.bytes() + 2 * 64 /* alignment of its two arrays */ + of_method;
 }
 
 std::vector<Region> split_into_regions(const PixelRect& pixels, std::span<const SubpatchInfo> subpatches,

@@ -33,6 +33,8 @@ struct RegionLimits {
     /// Tiles that are wanted: others and what is seen in them alone are left out; null: all are.
     const AwaitedTiles* awaited = nullptr;
     BuildMemory build{};  ///< of the visibility method
+    /// Else the grids are there already, and the method alone counts.
+    bool with_grids = true;
 };
 
 /// Upper estimate, in bytes, of the memory of a subpatch's grid and its part of the tree, but for what is of

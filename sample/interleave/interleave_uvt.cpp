@@ -3,6 +3,9 @@
 /// and the lens were a pinhole, and meets at most one sample in each k x k pixels: vector lanes are
 /// micropolygons. What this costs hardly depends on blur.
 ///
+/// With k = 1 it is the accumulation buffer [Haeberli90]: every pixel has the same tuples, and a picture of
+/// each is drawn and added up, as the renderer did that Hou et al. had before [Hou10 sec. 5].
+///
 /// No occlusion culling, as in the paper; cull=on goes through grids front to back and leaves out what lies
 /// behind the hits that the tuple has already.
 #include "sample/interleave/uvt_raster.h"

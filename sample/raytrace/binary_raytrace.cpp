@@ -7,6 +7,7 @@
 #include "accel/dynamic/two_level_tree.h"
 #include "accel/moving/kd_tree.h"
 #include "accel/moving/moving_tree.h"
+#include "accel/moving/slab_tree.h"
 #include "accel/paper/micropolygon_tree.h"
 #include "accel/paper/paper_tree.h"
 #include "accel/paper/top_level.h"
@@ -19,7 +20,7 @@ namespace {
 /// Rays of a beam. 64 to 512 are within 10 % of each other in tests/bench/trace_bench.cpp.
 constexpr size_t kGroupSize = 128;
 
-/// From words to a tree's options, in this and the next four; the words have been checked against the table
+/// From words to a tree's options, in this and the next five; the words have been checked against the table
 /// (complete_spec), and first values are the defaults.
 PaperTreeOptions paper_options(const MethodSpec& spec) {
     using Bounds = PaperTreeOptions::Bounds;
@@ -28,6 +29,7 @@ PaperTreeOptions paper_options(const MethodSpec& spec) {
     if (spec["bounds"] == "aabb4d") options.bounds = Bounds::WholeMotion;
     options.orient_split = spec.is_on("orient_split");
     options.orient_propagation = spec.is_on("orient_propagation");
+    options.bounds_from_children = spec["bounds_from"] == "children";
     options.leaf = spec.number("leaf");
     return options;
 }
@@ -68,6 +70,11 @@ InsertionOptions insertion_options(const MethodSpec& spec) {
     return options;
 }
 
+SlabTreeOptions slab_options(const MethodSpec& spec) {
+    using Planes = SlabTreeOptions::Planes;
+    return {spec["planes"] == "spacetime" ? Planes::SpaceTime : Planes::Moving, spec.number("leaf")};
+}
+
 LooseOptions loose_options(const MethodSpec& spec) {
     return {spec.number("levels"), spec["place"] == "size", spec.is_on("skip")};
 }
@@ -80,6 +87,8 @@ Tree built(const VisibilityInput& input) {
         return Tree(input.grids, moving_options(spec));
     } else if constexpr (std::is_same_v<Tree, KdTree>) {
         return Tree(input.grids, kd_options(spec));
+    } else if constexpr (std::is_same_v<Tree, SlabTree>) {
+        return Tree(input.grids, slab_options(spec));
     } else if constexpr (std::is_same_v<Tree, InsertionTree>) {
         Tree tree(insertion_options(spec));
         tree.build(input.grids);
@@ -120,7 +129,7 @@ struct BinaryScratch {
     std::vector<Hit> hits;         ///< of one ray
 };
 
-/// `Tree` is one with parts, or KdTree, InsertionTree, LooseTree or TwoLevelTree.
+/// `Tree` is one with parts, or KdTree, SlabTree, InsertionTree, LooseTree or TwoLevelTree.
 template <class Tree>
 class BinaryRayTraced final : public Visibility {
   public:
@@ -280,6 +289,7 @@ std::unique_ptr<Visibility> prepare_binary_raytrace(const VisibilityInput& input
     if (tree == "mbkd") return std::make_unique<BinaryRayTraced<KdTree>>(input);
     if (tree == "gs" || tree == "dynamic") return std::make_unique<BinaryRayTraced<InsertionTree>>(input);
     if (tree == "loose") return std::make_unique<BinaryRayTraced<LooseTree>>(input);
+    if (tree == "slabs") return std::make_unique<BinaryRayTraced<SlabTree>>(input);
     if (tree == "twolevel") return std::make_unique<BinaryRayTraced<TwoLevelTree>>(input);
     if (tree != "paper" && tree != "wide") return std::make_unique<BinaryRayTraced<MovingTree>>(input);
     if (input.spec["split"] == "sah") return std::make_unique<BinaryRayTraced<MicropolygonTree>>(input);

@@ -16,12 +16,13 @@ const std::vector<SpecOption>& raytrace_options() {
     static const std::vector<SpecOption> options = {
         {"tree",
          {"wide", "paper", "interpolated", "msbvh", "lbvh", "refit", "mbkd", "gs", "dynamic", "loose",
-          "twolevel"}},
+          "twolevel", "slabs"}},
         {"bundle", {"on", "off"}},
         {"bounds", {"obb", "aabb", "aabb4d"}},
         {"split", {"parametric", "sah"}},
         {"orient_split", {"on", "off"}},
         {"orient_propagation", {"on", "off"}},
+        {"bounds_from", {"contents", "children"}},
         {"ray_sort", {"on", "off"}},
         {"leaf", {"8", "4", "16", "32"}},
         {"keys", {"grids", "1", "2", "3", "5", "9", "17"}},
@@ -39,6 +40,7 @@ const std::vector<SpecOption>& raytrace_options() {
         {"levels", {"18", "9", "12", "15", "21"}},
         {"place", {"size", "lowest"}},
         {"skip", {"on", "off"}},
+        {"planes", {"moving", "spacetime"}},
     };
     return options;
 }
@@ -48,10 +50,10 @@ std::string_view trees_with(std::string_view option) {
     struct Row {
         std::string_view option, trees;
     };
-    static constexpr std::array<Row, 18> kRows{{
+    static constexpr std::array<Row, 19> kRows{{
         {"bundle", "paper|interpolated|msbvh|lbvh|refit"},
-        {"ray_sort", "paper|interpolated|msbvh|lbvh|refit|mbkd|gs|dynamic|loose|twolevel"},
-        {"leaf", "paper|interpolated|msbvh|lbvh|refit|mbkd"},
+        {"ray_sort", "paper|interpolated|msbvh|lbvh|refit|mbkd|gs|dynamic|loose|twolevel|slabs"},
+        {"leaf", "paper|interpolated|msbvh|lbvh|refit|mbkd|slabs"},
         {"keys", "interpolated|msbvh|lbvh|refit"},
         {"clip", "msbvh"},
         {"refit", "msbvh|lbvh"},
@@ -67,6 +69,7 @@ std::string_view trees_with(std::string_view option) {
         {"levels", "loose"},
         {"place", "loose"},
         {"skip", "loose"},
+        {"planes", "slabs"},
     }};
     for (const Row& row : kRows)
         if (row.option == option) return row.trees;
@@ -93,7 +96,7 @@ BuildMemory build_memory(const MethodSpec& spec) {
         BuildMemory memory;
         bool swept_boxes;  ///< it is made of boxes of all micropolygons at the keys
     };
-    static constexpr std::array<Row, 9> kRows{{
+    static constexpr std::array<Row, 10> kRows{{
         {"paper", {0, 20, 700}, false},
         {"interpolated", {100, 100, 256}, true},
         {"refit", {100, 100, 256}, true},
@@ -103,6 +106,7 @@ BuildMemory build_memory(const MethodSpec& spec) {
         {"gs", {190, 0, 8}, false},
         {"dynamic", {190, 0, 8}, false},
         {"twolevel", {190, 0, 8}, false},
+        {"slabs", {160, 40, 64}, false},
     }};
     const std::string_view tree = spec["tree"];
     BuildMemory memory;
@@ -117,6 +121,8 @@ BuildMemory build_memory(const MethodSpec& spec) {
             memory.per_micropolygon += std::exchange(memory.per_segment, 0) *
                                        static_cast<size_t>(std::max(1, spec.number("keys") - 1));
     }
+    if (tree == "slabs")  // nodes have as many keys as any grid has, or one
+        memory.per_most_segment = spec["planes"] == "moving" ? std::exchange(memory.per_segment, 0) : 0;
     // So many times may a micropolygon be in the tree.
     const size_t times = tree == "msbvh"  ? 1 + static_cast<size_t>(spec.number("budget"))
                          : tree == "mbkd" ? 1 + static_cast<size_t>(spec.number("duplicates"))

@@ -12,9 +12,9 @@ namespace {
 using Value = nlohmann::json;
 
 /// Fields that are of the run and not of what it found, or that follow from times; others whose name has
-/// "seconds" in it are times, too. Grids' memory is in chunks of each thread, and their number a matter of
-/// which thread comes first.
-constexpr std::array<std::string_view, 10> kNotCompared = {"program",
+/// "seconds" in it are times, too. Peaks are counted in pages of the process. Grids' memory is in chunks of
+/// each thread, and their number a matter of which thread comes first.
+constexpr std::array<std::string_view, 11> kNotCompared = {"program",
                                                            "scenes",
                                                            "command",
                                                            "options",
@@ -23,7 +23,8 @@ constexpr std::array<std::string_view, 10> kNotCompared = {"program",
                                                            "verdict",
                                                            "ratio_to_baseline",
                                                            "samples_per_second",
-                                                           "grid_bytes"};
+                                                           "grid_bytes",
+                                                           "build_peak_bytes"};
 
 bool is_compared(const std::string& field) {
     return std::ranges::find(kNotCompared, field) == kNotCompared.end() &&
