@@ -24,10 +24,6 @@ constexpr float kBesideBoxes = 4 * kBoundRounding;
 /// References from which one node's sums are made in parallel, in parts that do not depend on threads.
 constexpr size_t kParallelSumsFrom = 1 << 15;
 
-/// A step through a node of the tree, with the memory that it reads, counts as so many tests: with half a
-/// test trees were built in twice the time and took twice the memory, for rays that took as long.
-constexpr double kStepCost = 2;
-
 /// The planes of one node along one axis, and the weights of what begins and ends between them.
 struct AxisPlanes {
     float first = 0, step = 0, steps_per_unit = 0;
@@ -203,7 +199,7 @@ void consider_planes_of(const AxisPlanes& planes, int axis, const Box3f& cell, K
         Box3f low_cell = cell, high_cell = cell;
         low_cell.max[axis] = high_cell.min[axis] = at;
         const double cost =
-            kStepCost + (half_area(low_cell) * below + half_area(high_cell) * above) / cell_area;
+            kTraversalCost + (half_area(low_cell) * below + half_area(high_cell) * above) / cell_area;
         if (cost < best.cost) best = {cost, axis, at};
     }
 }
