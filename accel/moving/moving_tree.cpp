@@ -289,13 +289,18 @@ void MovingTree::bound_leaf(const Sources& sources, size_t at, LeafBoxes& boxes)
             if (sources.last->boxes_of(grids_->grids[id.grid], id, list, options_.clipping, whole, of_part))
                 there = std::span(of_part).first(whole.size());
         }
-        keyed_boxes(there, std::span(at_keys).first(keys));
-        for (size_t key = 0; key < keys; ++key) of_leaf[key].extendBy(at_keys[key]);
+        if (there.size() != keys) {
+            keyed_boxes(there, std::span(at_keys).first(keys));
+            there = std::span(at_keys).first(keys);
+        }
+        for (size_t key = 0; key < keys; ++key) of_leaf[key].extendBy(there[key]);
     }
     KeyBox* const to = top_.boxes.data() + at * keys;
-    for (size_t key = 0; key < keys; ++key)
-        for (int k = 0; k < 3; ++k)
-            to[key].low[k] = of_leaf[key].min[k], to[key].high[k] = of_leaf[key].max[k];
+    for (size_t key = 0; key < keys; ++key) {
+        // By more than each of them would be.
+        const Box3f grown = grown_for_rounding(of_leaf[key]);
+        for (int k = 0; k < 3; ++k) to[key].low[k] = grown.min[k], to[key].high[k] = grown.max[k];
+    }
 }
 
 double MovingTree::bound_below(const Sources& sources, size_t at, int depth, LeafBoxes& boxes) {
