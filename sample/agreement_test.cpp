@@ -356,7 +356,8 @@ TEST_P(Agreement, EveryChoiceOfThePapersTreeFindsWhatBruteForceFinds) {
          {"bounds=aabb", "bounds=aabb4d", "bounds=aabb4d,bundle=off,leaf=32", "orient_split=off,leaf=4",
           "orient_propagation=off,bundle=off", "ray_sort=off,leaf=16", "split=sah", "split=sah,bundle=off",
           "split=sah,bounds=aabb,leaf=4", "split=sah,bounds=aabb4d,leaf=32",
-          "split=sah,orient_split=off,orient_propagation=off", "split=sah,bounds_from=children"})
+          "split=sah,orient_split=off,orient_propagation=off", "split=sah,bounds_from=children",
+          "split=sah,ray_frames=cached,bundle=off"})
         EXPECT_EQ(differing_samples(resolve(scene(), "raytrace:tree=paper," + options), truth), 0u)
             << options;
 }

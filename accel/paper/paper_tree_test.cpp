@@ -44,6 +44,30 @@ TEST(PaperTree, ClosestAndAnyInAllDirectionsEqualTestingEverything) {
     }
 }
 
+/// Turning a ray once or anew for each node is the same arithmetic.
+TEST(PaperTree, GoesTheSameWayWithKeptRays) {
+    Noise noise;
+    GridMaker maker;
+    add_sheets(maker, 40, 2, noise);
+    PaperTreeOptions options;
+    const PaperTree anew(maker.grids(), options);
+    options.keep_turned_rays = true;
+    const PaperTree kept(maker.grids(), options);
+    SampleStats stats_anew, stats_kept;
+    for (int round = 0; round < 2000; ++round) {
+        const SpaceRay ray{noise.point(5), noise.point(1), noise(0, 1)};
+        const auto hit = [&](const PaperTree& tree, SampleStats& stats) {
+            TraceRay trace_ray = TraceRay::turned(axis_ray(ray), {});
+            ClosestHit policy;
+            tree.trace(trace_ray, policy, stats);
+            return policy.best;
+        };
+        ASSERT_EQ(hit(anew, stats_anew), hit(kept, stats_kept));
+    }
+    EXPECT_EQ(stats_anew.nodes_visited, stats_kept.nodes_visited);
+    EXPECT_GT(stats_anew.predicate_hits, 100u);
+}
+
 TEST(PaperTree, AlongTheAxesToo) {
     Noise noise;
     GridMaker maker;

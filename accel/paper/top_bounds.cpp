@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 namespace trapeze {
 namespace {
@@ -24,7 +25,12 @@ class Bounding {
           options_(options),
           leaf_bounds_(leaf_bounds),
           top_(top),
-          leaves_(topology.inner.size() + 1) {}
+          leaves_(topology.inner.size() + 1),
+          frames_(top.oriented ? leaves_.size() + 1 : 0) {
+        if (top.oriented) frames_.back() = FrameColumns(Frame{});
+    }
+    /// Of leaves from left to right, and the axes of space.
+    std::vector<FrameColumns> frames() && { return std::move(frames_); }
 
     /// The subtree below a link, with its leaves counted from left to right. Inner nodes are in preorder, so
     /// that a subtree's are those from its root's on; it has a leaf more than inner nodes.
@@ -42,6 +48,7 @@ class Bounding {
             // The top level has as many keys as any grid: a leaf of fewer gets boxes in between.
             leaf.box = leaf.box.in(leaf.box.frame, top_.key_count);
             leaves_[part.first_leaf] = {part.link.index(), leaf.box};
+            leaf.frame = static_cast<uint32_t>(part.first_leaf);
             return leaf;
         }
         NodeBound child[2];
@@ -54,16 +61,19 @@ class Bounding {
             tbb::parallel_invoke([&] { build(0); }, [&] { build(1); });
         else
             build(0), build(1);
-        return {union_of(part, child[0].box, child[1].box),
-                std::max(child[0].absolute_max, child[1].absolute_max),
-                std::max(child[0].quad_extent, child[1].quad_extent)};
+        HyperTrapezoid box = union_of(part, child[0].box, child[1].box);
+        const uint32_t frame = box.frame == child[0].box.frame   ? child[0].frame
+                               : box.frame == child[1].box.frame ? child[1].frame
+                                                                 : static_cast<uint32_t>(leaves_.size());
+        return {std::move(box), std::max(child[0].absolute_max, child[1].absolute_max),
+                std::max(child[0].quad_extent, child[1].quad_extent), frame};
     }
 
     /// Stores a bound as node `index` of the tree: one KeyBox a key, side by side. Subtrees write apart from
     /// each other, so that parallel tasks may call it.
-    void set_node(size_t index, TopLink link, const NodeBound& bound) const {
-        top_.nodes[index] = {bound.absolute_max, bound.quad_extent, link};
-        if (top_.oriented) top_.frames[index] = FrameColumns(bound.box.frame);
+    void set_node(size_t index, TopLink link, const NodeBound& bound) {
+        top_.nodes[index] = {bound.absolute_max, bound.quad_extent, link, bound.frame};
+        if (top_.oriented && link.is_leaf()) frames_[bound.frame] = FrameColumns(bound.box.frame);
         for (int key = 0; key < top_.key_count; ++key) {
             KeyBox& box = top_.boxes[index * top_.key_count + key];
             for (int k = 0; k < 3; ++k) {
@@ -122,6 +132,7 @@ class Bounding {
     const LeafBounds& leaf_bounds_;
     TopLevel& top_;
     std::vector<Leaf> leaves_;
+    std::vector<FrameColumns> frames_;
 };
 
 }  // namespace
@@ -133,10 +144,12 @@ TopLevel bound_top_level(const TopTopology& topology, size_t leaf_count, int key
     top.oriented = options.oriented();
     if (leaf_count == 0) return top;
     top.nodes.resize(2 * leaf_count - 1);
-    if (top.oriented) top.frames.resize(top.nodes.size());
     top.boxes.resize(top.nodes.size() * top.key_count);
     Bounding bounding(topology, options, leaves, top);
     bounding.set_node(top.nodes.size() - 1, topology.root, bounding.bound(bounding.all(), 0));
+    if (top.oriented)
+        top.frames = std::make_shared<const std::vector<FrameColumns>>(std::move(bounding).frames());
+    top.keeps_turned_rays = top.oriented && options.keep_turned_rays;
     return top;
 }
 

@@ -15,6 +15,7 @@ struct NodeBound {
     HyperTrapezoid box;
     float absolute_max = 0;  ///< largest coordinate of what is inside
     float quad_extent = 0;   ///< longest side of the box of any one micropolygon inside
+    uint32_t frame = 0;      ///< the box's, by number: that of a leaf, counted from left to right, or none's
 };
 
 /// How leaves are bounded; called from many threads, perhaps several times for a leaf.

@@ -61,7 +61,6 @@ class Pruning {
     void copy(const Kept& kept) {
         to_.nodes.push_back(from_.nodes[kept.source]);
         to_.nodes.back().link = kept.link;
-        if (from_.oriented) to_.frames.push_back(from_.frames[kept.source]);
         const KeyBox* boxes = from_.boxes_of(kept.source);
         to_.boxes.insert(to_.boxes.end(), boxes, boxes + from_.key_count);
     }
@@ -80,13 +79,20 @@ void TopLevel::within(const Beam& beam, TopLevel& part, uint64_t* looked_at) con
     part.key_count = key_count;
     part.oriented = oriented;
     part.nodes.clear();
-    part.frames.clear();
+    part.frames = frames;
+    part.keeps_turned_rays = keeps_turned_rays;
     part.boxes.clear();
     if (nodes.empty()) return;
     Pruning pruning(*this, beam, part);
     // The root goes last, as in any TopLevel; its own bound is not tested again.
     if (const auto root = pruning.visit(nodes.size() - 1)) pruning.copy(*root);
     *looked_at += pruning.looked_at;
+}
+
+inline const FrameRay& TopLevelView::turned(uint32_t frame, const TraceRay& ray) const {
+    Turned& held = turned_[frame % kKept];
+    if (held.frame != frame) held = {FrameRay((*tree_.frames)[frame], ray), frame};
+    return held.ray;
 }
 
 /// Whether the ray may hit something in a node; the visit is set in any case, so that nothing branches on it.
@@ -96,8 +102,10 @@ inline bool TopLevelView::meet(size_t index, const TraceRay& ray, Visit& visit) 
     const KeyBox* to = tree_.key_count > 1 ? from + 1 : from;
     const float rounding = ray.rounding(node.absolute_max);
     const DepthInterval inside =
-        tree_.oriented ? clip(FrameRay(tree_.frames[index], ray), *from, *to, segment_.local, rounding)
-                       : clip(along_axes_, *from, *to, segment_.local, rounding);
+        !tree_.oriented ? clip(along_axes_, *from, *to, segment_.local, rounding)
+        : tree_.keeps_turned_rays
+            ? clip(turned(node.frame, ray), *from, *to, segment_.local, rounding)
+            : clip(FrameRay(tree_.frame_of(index), ray), *from, *to, segment_.local, rounding);
     visit.node = node.link.value;
     return inside.meets(ray, node.quad_extent + rounding, visit.depth);
 }

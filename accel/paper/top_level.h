@@ -2,6 +2,8 @@
 /// whose leaves are grids. (The leaves of a MicropolygonTree are lists of micropolygons.)
 #pragma once
 
+#include <array>
+#include <memory>
 #include <vector>
 
 #include "accel/builders/sah_topology.h"
@@ -20,22 +22,29 @@ struct TopLevel {
         float absolute_max = 0;  ///< largest coordinate of any grid below
         float quad_extent = 0;   ///< size of the largest micropolygon below
         TopLink link;
+        uint32_t frame = 0;  ///< which of `frames` its boxes are in
     };
 
     int key_count = 1;
     bool oriented = true;
     std::vector<Node>
         nodes;  ///< children of inner node i at 2 i and 2 i + 1; the root last; none without grids
-    std::vector<FrameColumns> frames;  ///< of the nodes; none unless oriented
+    /// A view keeps the rays that it has turned lately, for nodes that share a frame: a node has that of one
+    /// of its children.
+    bool keeps_turned_rays = false;
+    /// That nodes have; null unless oriented. Shared by the parts of a tree.
+    std::shared_ptr<const std::vector<FrameColumns>> frames;
     /// key_count boxes a node, in its frame.
     std::vector<KeyBox> boxes;
 
     /// What a node's boxes are coordinates of.
-    const FrameColumns& frame_of(size_t node) const { return oriented ? frames[node] : kAxes; }
+    const FrameColumns& frame_of(size_t node) const {
+        return oriented ? (*frames)[nodes[node].frame] : kAxes;
+    }
     /// A node's boxes at keys 0 .. key_count - 1.
     const KeyBox* boxes_of(size_t node) const { return boxes.data() + node * key_count; }
     size_t bytes() const {
-        return nodes.capacity() * sizeof(Node) + frames.capacity() * sizeof(FrameColumns) +
+        return nodes.capacity() * sizeof(Node) + (frames ? frames->capacity() * sizeof(FrameColumns) : 0) +
                boxes.capacity() * sizeof(KeyBox);
     }
 
@@ -57,6 +66,8 @@ class TopLevelView {
     TopLevelView(const TopLevel& tree, const TraceRay& ray)
         : tree_(tree), segment_(segment_at(ray.axis.time, tree.key_count)) {
         if (!tree.oriented) along_axes_ = FrameRay(ray);
+        if (tree.keeps_turned_rays)
+            for (Turned& held : turned_) held.frame = kNoFrame;
     }
 
     /// The root, if the ray may hit something in it; nothing in an empty tree.
@@ -70,10 +81,20 @@ class TopLevelView {
 
   private:
     bool meet(size_t index, const TraceRay& ray, Visit& visit) const;
+    const FrameRay& turned(uint32_t frame, const TraceRay& ray) const;
+
+    static constexpr uint32_t kNoFrame = ~uint32_t{0};
+    static constexpr size_t kKept = 8;
+    /// The ray in a frame.
+    struct Turned {
+        FrameRay ray;
+        uint32_t frame;
+    };
 
     const TopLevel& tree_;
     MotionSegment segment_;
     FrameRay along_axes_;
+    mutable std::array<Turned, kKept> turned_;  ///< each frame has one place
 };
 
 }  // namespace trapeze

@@ -30,6 +30,7 @@ PaperTreeOptions paper_options(const MethodSpec& spec) {
     options.orient_split = spec.is_on("orient_split");
     options.orient_propagation = spec.is_on("orient_propagation");
     options.bounds_from_children = spec["bounds_from"] == "children";
+    options.keep_turned_rays = spec["ray_frames"] == "cached";
     options.leaf = spec.number("leaf");
     return options;
 }

@@ -23,6 +23,7 @@ const std::vector<SpecOption>& raytrace_options() {
         {"orient_split", {"on", "off"}},
         {"orient_propagation", {"on", "off"}},
         {"bounds_from", {"contents", "children"}},
+        {"ray_frames", {"turned", "cached"}},
         {"ray_sort", {"on", "off"}},
         {"leaf", {"8", "4", "16", "32"}},
         {"keys", {"grids", "1", "2", "3", "5", "9", "17"}},
