@@ -91,7 +91,7 @@ void TopLevel::within(const Beam& beam, TopLevel& part, uint64_t* looked_at) con
 
 inline const FrameRay& TopLevelView::turned(uint32_t frame, const TraceRay& ray) const {
     Turned& held = turned_[frame % kKept];
-    if (held.frame != frame) held = {FrameRay((*tree_.frames)[frame], ray), frame};
+    if (held.frame != frame) held = {FrameRay(frames_[frame], ray), frame};
     return held.ray;
 }
 
@@ -105,7 +105,7 @@ inline bool TopLevelView::meet(size_t index, const TraceRay& ray, Visit& visit) 
         !tree_.oriented ? clip(along_axes_, *from, *to, segment_.local, rounding)
         : tree_.keeps_turned_rays
             ? clip(turned(node.frame, ray), *from, *to, segment_.local, rounding)
-            : clip(FrameRay(tree_.frame_of(index), ray), *from, *to, segment_.local, rounding);
+            : clip(FrameRay(frames_[node.frame], ray), *from, *to, segment_.local, rounding);
     visit.node = node.link.value;
     return inside.meets(ray, node.quad_extent + rounding, visit.depth);
 }

@@ -64,7 +64,9 @@ class TopLevelView {
     static constexpr int kStackSize = kTopDepthLimit + 2;
 
     TopLevelView(const TopLevel& tree, const TraceRay& ray)
-        : tree_(tree), segment_(segment_at(ray.axis.time, tree.key_count)) {
+        : tree_(tree),
+          frames_(tree.frames ? tree.frames->data() : nullptr),
+          segment_(segment_at(ray.axis.time, tree.key_count)) {
         if (!tree.oriented) along_axes_ = FrameRay(ray);
         if (tree.keeps_turned_rays)
             for (Turned& held : turned_) held.frame = kNoFrame;
@@ -92,6 +94,7 @@ class TopLevelView {
     };
 
     const TopLevel& tree_;
+    const FrameColumns* frames_;
     MotionSegment segment_;
     FrameRay along_axes_;
     mutable std::array<Turned, kKept> turned_;  ///< each frame has one place
