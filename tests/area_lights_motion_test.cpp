@@ -14,13 +14,16 @@ std::string mean_in_shutter(const std::string& formula) {
 }
 const std::string kMovesAcross = "MotionBegin [0 1] Translate -2 0 0 Translate 2 0 0 MotionEnd ";
 
+/// What a unit square of radiance 1, and a ball of width 1, give where they are.
+const std::string kSquareAtX =
+    "polygon(P, point(x - .5, -.5, 3), point(x + .5, -.5, 3), point(x + .5, .5, 3), point(x - .5, .5, 3))";
+const std::string kBallAtX =
+    ".25 / (xcomp(vector(point(x, 0, 3) - P)) * xcomp(vector(point(x, 0, 3) - P)) +"
+    "  ycomp(P) * ycomp(P) + 4) * 2 / distance(point(x, 0, 3), P)";
+
 /// What shines moves by four of its widths while the shutter is open: a mesh, a ball, a deforming mesh.
 TEST(AreaLights, ThatMoveGiveTheirMeanOverTheShutter) {
-    const std::string square = mean_in_shutter(
-        "PI * polygon(P, point(x - .5, -.5, 3), point(x + .5, -.5, 3), point(x + .5, .5, 3), point(x - .5, .5, 3))");
-    const std::string ball = mean_in_shutter(
-        ".25 / (xcomp(vector(point(x, 0, 3) - P)) * xcomp(vector(point(x, 0, 3) - P)) +"
-        "  ycomp(P) * ycomp(P) + 4) * 2 / distance(point(x, 0, 3), P)");
+    const std::string square = mean_in_shutter("PI * " + kSquareAtX), ball = mean_in_shutter(kBallAtX);
     for (
         const auto& [shape, formula] :
         {std::pair{kMovesAcross + "Polygon \"P\" [-.5 -.5 0 .5 -.5 0 .5 .5 0 -.5 .5 0] ", square},
@@ -44,13 +47,9 @@ TEST(AreaLights, ThatMoveGiveTheirMeanOverTheShutter) {
 }
 
 /// The path tracer's lights, of which there is no primitive. A disk in the sky that turns across is as bright
-/// as the mean of its cosines; a dome, whose half is dark, as its mean.
+/// as the mean of its cosines; a dome that turns is as bright as ever.
 TEST(AreaLights, OfThePathTracerThatMoveGiveTheirMeanOverTheShutter) {
-    const std::string square = mean_in_shutter(
-        "polygon(P, point(x - .5, -.5, 3), point(x + .5, -.5, 3), point(x + .5, .5, 3), point(x - .5, .5, 3))");
-    const std::string ball = mean_in_shutter(
-        ".25 / (xcomp(vector(point(x, 0, 3) - P)) * xcomp(vector(point(x, 0, 3) - P)) +"
-        "  ycomp(P) * ycomp(P) + 4) * 2 / distance(point(x, 0, 3), P)");
+    const std::string square = mean_in_shutter(kSquareAtX), ball = mean_in_shutter(kBallAtX);
     const std::string turns = "MotionBegin [0 1] Rotate -60 1 0 0 Rotate 60 1 0 0 MotionEnd ";
     const std::string sun = "float s = sin(radians(.265)), expected = s * s * sin(PI / 3) / (PI / 3);";
     const auto lit = [&](const std::string& light, const std::string& formula, double of_mean,

@@ -14,6 +14,7 @@
 #include "accel/builders/sah_topology.h"
 #include "accel/moving/key_boxes.h"
 #include "accel/moving/linear_topology.h"
+#include "accel/paper/paired_nodes.h"
 
 namespace trapeze {
 namespace {
@@ -126,7 +127,7 @@ void MovingTree::build() {
             build_linear_topology({centroids.data(), centroids.size()}, static_cast<size_t>(options_.leaf));
         phases.divide = clock.end_phase();
         leaf_first_ = std::move(topology.leaf_first);
-        link_nodes(topology.tree);
+        link_nodes(topology.tree, leaf_count(), top_.nodes);
         bound({boxes, topology.items, {}});
     } else {
         build_spatial(boxes, clock, phases);
@@ -164,18 +165,8 @@ void MovingTree::build_spatial(const SweptBoxes& boxes, PhaseClock& clock, Build
         std::sort(topology.references.begin() + first, topology.references.begin() + last, by_id);
         for (uint32_t r = first; r < last; ++r) references[r] = topology.references[r].id;
     });
-    link_nodes(topology.tree);
+    link_nodes(topology.tree, leaf_count(), top_.nodes);
     bound({boxes, references, topology.references});
-}
-
-/// In TopLevel's order: the sides of inner node i are nodes 2 i and 2 i + 1, and the root is the last.
-void MovingTree::link_nodes(const TopTopology& topology) {
-    top_.nodes.clear();
-    if (leaf_count() == 0) return;
-    top_.nodes.resize(2 * leaf_count() - 1);
-    for (size_t i = 0; i < topology.inner.size(); ++i)
-        for (const size_t side : {0, 1}) top_.nodes[2 * i + side].link = topology.inner[i][side];
-    top_.nodes.back().link = topology.root;
 }
 
 bool MovingTree::lists_hold(const Grids& grids) const {

@@ -41,8 +41,6 @@ class MovingTree final : public ListTree {
     void build();
     /// Makes a tree by the surface area heuristic, with splits if there is a budget for them.
     void build_spatial(const SweptBoxes& boxes, PhaseClock& clock, BuildPhases& phases);
-    /// Says which node is which leaf, and which ones are below which.
-    void link_nodes(const TopTopology& topology);
     /// Whether the lists have all micropolygons of grids, and no others.
     bool lists_hold(const Grids& grids) const;
     /// What refit() keeps of the frame that the tree is of; `times`: how many references each micropolygon

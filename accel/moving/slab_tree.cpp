@@ -9,6 +9,7 @@
 #include "accel/builders/grid_summary.h"
 #include "accel/builders/micropolygon_boxes.h"
 #include "accel/moving/spatial_topology.h"
+#include "accel/paper/paired_nodes.h"
 
 namespace trapeze {
 namespace {
@@ -59,13 +60,8 @@ SlabTree::SlabTree(const Grids& grids, const SlabTreeOptions& options) : grids_(
     items = {};
     leaf_first_ = std::move(topology.leaf_first);
     micropolygons_.resize(topology.references.size());
-    if (leaf_count() > 0) {
-        nodes_.resize(2 * leaf_count() - 1);
-        extents_.resize(nodes_.size() * key_count_);
-    }
-    for (size_t i = 0; i < topology.tree.inner.size(); ++i)
-        for (const size_t side : {0, 1}) nodes_[2 * i + side].link = topology.tree.inner[i][side];
-    if (!nodes_.empty()) nodes_.back().link = topology.tree.root;
+    link_nodes(topology.tree, leaf_count(), nodes_);
+    extents_.resize(nodes_.size() * key_count_);
     tbb::parallel_for(size_t{0}, micropolygons_.size(),
                       [&](size_t i) { micropolygons_[i] = ids[PartId::index(topology.references[i].id)]; });
     tbb::parallel_for(size_t{0}, nodes_.size(), [&](size_t node) {
@@ -175,17 +171,12 @@ inline bool SlabTreeView::meet(size_t index, const TraceRay& ray, Visit& visit) 
 }
 
 Visits SlabTreeView::enter(const TraceRay& ray) const {
-    if (tree_.nodes_.empty()) return {};
-    Visit root;
-    const bool met = meet(tree_.nodes_.size() - 1, ray, root);
-    return Visits::one(root, met);
+    return enter_paired(tree_.nodes_.size(),
+                        [&](size_t node, Visit& visit) { return meet(node, ray, visit); });
 }
 
 Visits SlabTreeView::step(const Visit& at, const TraceRay& ray) const {
-    const size_t first = 2 * size_t{at.node};
-    std::array<Visit, 2> children;
-    const bool met_first = meet(first, ray, children[0]), met_second = meet(first + 1, ray, children[1]);
-    return Visits::two(children, met_first, met_second);
+    return step_paired(at.node, [&](size_t node, Visit& visit) { return meet(node, ray, visit); });
 }
 
 }  // namespace trapeze

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "accel/paper/paired_nodes.h"
+
 namespace trapeze {
 namespace {
 
@@ -111,18 +113,13 @@ inline bool TopLevelView::meet(size_t index, const TraceRay& ray, Visit& visit) 
 }
 
 Visits TopLevelView::enter(const TraceRay& ray) const {
-    if (tree_.nodes.empty()) return {};
-    Visit root;
-    const bool met = meet(tree_.nodes.size() - 1, ray, root);
-    return Visits::one(root, met);
+    return enter_paired(tree_.nodes.size(),
+                        [&](size_t node, Visit& visit) { return meet(node, ray, visit); });
 }
 
 Visits TopLevelView::step(const Visit& at, const TraceRay& ray) const {
     // A visit names a link, and that of an inner node is its number as it is.
-    const size_t first = 2 * size_t{at.node};
-    std::array<Visit, 2> children;
-    const bool met_first = meet(first, ray, children[0]), met_second = meet(first + 1, ray, children[1]);
-    return Visits::two(children, met_first, met_second);
+    return step_paired(at.node, [&](size_t node, Visit& visit) { return meet(node, ray, visit); });
 }
 
 }  // namespace trapeze

@@ -99,11 +99,9 @@ class RateRun {
     }
     void take_turn(size_t method) {
         MethodResult& result = results_[method];
-        const std::vector<FramePart> parts = parts_of(frame_, result.sampler.build_memory());
         result.build_seconds.push_back(0), result.resolve_seconds.push_back(0);
-        result.parts = parts.size();
         result.sample = {}, result.hits = 0, result.build = {};
-        for (const FramePart& part : parts) {
+        for (const FramePart& part : parts_[method]) {
             if (result.variance > 0)
                 take_adaptive(result, part);
             else
@@ -153,6 +151,8 @@ class RateRun {
         result.rate = rate;
         result.micropolygons = frame_.grids.micropolygon_count();
         result.pixels = static_cast<uint64_t>(frame_.pixels.width()) * frame_.pixels.height();
+        parts_.push_back(parts_of(frame_, sampler.build_memory()));
+        result.parts = parts_.back().size();
         return result;
     }
 
@@ -233,6 +233,7 @@ class RateRun {
     double longest_turn_;
     std::vector<SpaceRay> occlusion_rays_;
     std::vector<MethodResult> results_;
+    std::vector<std::vector<FramePart>> parts_;  ///< as the results
     std::map<std::string, std::unique_ptr<SamplePattern>> patterns_;
     std::map<std::tuple<std::string, int, std::array<int, 4>>, SampleGroups> groups_;
 };
