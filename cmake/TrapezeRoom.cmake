@@ -38,28 +38,33 @@ endfunction()
 function(trapeze_room_test name program tests links processes)
     add_executable(${program} ${tests})
     trapeze_compile_together(${program} ${tests})
-    target_compile_options(${program} PRIVATE ${TRAPEZE_TEST_OPTIMISATION})
+    if(ROOM_TESTS_COMPUTE)
+        target_compile_options(${program} PRIVATE ${TRAPEZE_RARELY_RUN_OPTIMISATION})
+    else()
+        target_compile_options(${program} PRIVATE ${TRAPEZE_TEST_OPTIMISATION})
+    endif()
     target_link_libraries(${program} PRIVATE trapeze_${name} ${links} GTest::gtest_main GTest::gmock)
     target_compile_definitions(${program} PRIVATE TRAPEZE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
     trapeze_tests_of(${program} ${processes})
 endfunction()
 
 # trapeze_room(NAME SOURCES ... TESTS ... PICTURE_TESTS ... LINKS ... PRIVATE_LINKS ... PROCESSES N
-#              RARELY_RUN NO_LOOPS)
+#              RARELY_RUN NO_LOOPS TESTS_COMPUTE)
 # A room is one static library and, when tests are built, one test program made of the tests beside its sources; those
 # that read or write pictures by OpenImageIO are a program of their own, for its 250 libraries take half a second to
 # load. PROCESSES: how many share the room's tests. Includes are written from the root of the repository:
 # #include "core/grid.h". RARELY_RUN: what the room does is little beside what it has done, and the compiler needs not
-# look far. NO_LOOPS: it has none that -O3 makes faster, as measured.
+# look far. NO_LOOPS: it has none that -O3 makes faster, as measured. TESTS_COMPUTE: what its tests wait for
+# is in the tests, too.
 function(trapeze_room name)
-    cmake_parse_arguments(ROOM "RARELY_RUN;NO_LOOPS" "PROCESSES"
+    cmake_parse_arguments(ROOM "RARELY_RUN;NO_LOOPS;TESTS_COMPUTE" "PROCESSES"
                           "SOURCES;TESTS;PICTURE_TESTS;LINKS;PRIVATE_LINKS" ${ARGN})
     add_library(trapeze_${name} STATIC ${ROOM_SOURCES})
     trapeze_compile_together(trapeze_${name} ${ROOM_SOURCES})
     target_include_directories(trapeze_${name} PUBLIC ${PROJECT_SOURCE_DIR})
     target_link_libraries(trapeze_${name} PUBLIC ${ROOM_LINKS} PRIVATE ${ROOM_PRIVATE_LINKS})
     if(ROOM_RARELY_RUN)
-        target_compile_options(trapeze_${name} PRIVATE ${TRAPEZE_TEST_OPTIMISATION})
+        target_compile_options(trapeze_${name} PRIVATE ${TRAPEZE_RARELY_RUN_OPTIMISATION})
     elseif(ROOM_NO_LOOPS)
         target_compile_options(trapeze_${name} PRIVATE $<$<CONFIG:Release>:-O2>)
     endif()

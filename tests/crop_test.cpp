@@ -10,7 +10,8 @@ namespace {
 
 /// Balls, hairs and a floor under an area light, by shaders that draw numbers and send rays.
 std::string cropped_scene(const std::string& options) {
-    return "Format 64 48 1 PixelSamples 2 2 Projection \"perspective\" \"fov\" [40] Shutter 0 1 " + options +
+    return "Format 64 48 1 PixelSamples 2 2 Option \"trace\" \"int maxdepth\" 3 Projection \"perspective\" \"fov\" [40] Shutter 0 1 " +
+           options +
            "\nWorldBegin Attribute \"visibility\" \"int diffuse\" 1 \"int transmission\" 1 \"int specular\" 1 "
            "AttributeBegin Translate 0 3 6 Rotate 90 1 0 0 Attribute \"light\" \"int nsamples\" 4 "
            "AreaLightSource \"arealight\" 1 \"intensity\" [20] Polygon \"P\" [-1 -1 0 1 -1 0 1 1 0 -1 1 0] "

@@ -105,7 +105,7 @@ TEST(MemoryLimit, GridsOfMoreAreMadeInParts) {
     WorkFolder folder;
     folder.write("a.rib",
                  "Display \"a.exr\" \"file\" \"rgba\"\nFormat 512 512 1\nPixelSamples 1 1\n"
-                 "ShadingRate .02\nWorldBegin\n" +
+                 "ShadingRate .05\nWorldBegin\n" +
                      kUnitSphere + "WorldEnd\n");
     const Measured whole = measured(folder, "render a.rib -t 2 --memory 4G");
     const Measured run = measured(folder, "render a.rib -t 2 --memory 64M");
@@ -127,9 +127,7 @@ TEST(MemoryLimit, PicturesOfStrangersAreBounded) {
 /// Each fills the picture, and all are there to be split before the first is diced.
 TEST(MemoryLimit, PrimitivesOfMoreSplitsAreLeftOut) {
     WorkFolder folder;
-    std::string text =
-        "Display \"a.exr\" \"file\" \"rgba\"\nFormat 512 512 1\nPixelSamples 1 1\nShadingRate "
-        "4\nWorldBegin\n";
+    std::string text = "Display \"a.exr\" \"file\" \"rgba\"\nFormat 64 64 1\nPixelSamples 1 1\nWorldBegin\n";
     for (int i = 0; i < 1000; ++i) text += kUnitSphere;
     folder.write("a.rib", text + "WorldEnd\n");
     const Measured run = measured(folder, "render a.rib -t 2 --memory 4M");
