@@ -4,6 +4,7 @@ namespace trapeze::sah {
 
 Split best_of_bins(const Bins& bins, const Extent& extent) {
     Split best;
+    const double visit = half_area(extent.all.box()) * kTraversalCost;
     for (int axis = 0; axis < 3; ++axis) {
         // Along an axis without extent all centroids are in one bin, and no plane divides them.
         if (!(bins.binning->scale[axis] > 0)) continue;
@@ -18,7 +19,7 @@ Split best_of_bins(const Bins& bins, const Extent& extent) {
         for (int b = 1; b < kBins; ++b) {
             below.add(bin[b - 1]);
             if (below.count == 0 || below.count == extent.all.count) continue;
-            const double cost = half_area(extent.all.box) * kTraversalCost + below.cost() + cost_above[b];
+            const double cost = visit + below.cost() + cost_above[b];
             if (cost < best.cost) best = {cost, axis, static_cast<size_t>(b)};
         }
     }

@@ -10,6 +10,7 @@
 #include <limits>
 #include <span>
 
+#include "accel/builders/box_sum.h"
 #include "accel/builders/sah_topology.h"
 
 namespace trapeze::sah {
@@ -23,32 +24,36 @@ inline constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// Some items together: their box, the tests they stand for, their number.
 struct Bin {
-    Box3f box;
+    BoxSum boxes;
     uint64_t weight = 0;
     size_t count = 0;
 
     void add(const Bin& o) {
-        box.extendBy(o.box);
+        boxes.add(o.boxes);
         weight += o.weight, count += o.count;
     }
-    void add(const SahItem& item) { add(Bin{item.box, item.weight, 1}); }
+    void add(const SahItem& item) {
+        boxes.add(item.box);
+        weight += item.weight, ++count;
+    }
+    Box3f box() const { return boxes.box(); }
     /// The SAH's term for one side: half its area times its tests. 0 where there is nothing.
-    double cost() const { return half_area(box) * static_cast<double>(weight); }
+    double cost() const { return half_area(box()) * static_cast<double>(weight); }
 };
 
 /// What a node's choice of a split needs of its items: their sum, and the box of their centroids, which bins
 /// divide.
 struct Extent {
     Bin all;
-    Box3f centroids;
+    BoxSum centroids;
 
     void add(const SahItem& item) {
         all.add(item);
-        centroids.extendBy(item.centroid());
+        centroids.add(item.centroid());
     }
     void add(const Extent& o) {
         all.add(o.all);
-        centroids.extendBy(o.centroids);
+        centroids.add(o.centroids);
     }
 };
 

@@ -84,7 +84,7 @@ class Builder {
     /// and to part them.
     size_t split_by_bins(std::span<SahItem> part) const {
         const sah::Extent extent = sah::sum_of(part, sah::Extent{});
-        const sah::Binning binning(extent.centroids);
+        const sah::Binning binning(extent.centroids.box());
         const sah::Split best = sah::best_of_bins(sah::sum_of(part, sah::Bins{&binning, {}}), extent);
         if (!is_good(best, extent.all)) return 0;
         // Stable: the order of items, hence of leaves, is the same on every machine.
@@ -99,10 +99,12 @@ class Builder {
     size_t split_by_sweep(std::span<SahItem> part) const {
         sah::Extent extent;
         for (const SahItem& item : part) extent.add(item);
+        const Box3f centroids = extent.centroids.box();
+        const double visit = half_area(extent.all.box()) * kTraversalCost;
         sah::Split best;
         for (int axis = 0; axis < 3; ++axis)
-            if (extent.centroids.max[axis] > extent.centroids.min[axis])
-                sah::AxisOrder(part, axis).consider(axis, half_area(extent.all.box) * kTraversalCost, best);
+            if (centroids.max[axis] > centroids.min[axis])
+                sah::AxisOrder(part, axis).consider(axis, visit, best);
         if (!is_good(best, extent.all)) return 0;
         // The order reads the part that is to be written.
         std::vector<SahItem> sorted;
@@ -138,12 +140,6 @@ class Builder {
 };
 
 }  // namespace
-
-double half_area(const Box3f& box) {
-    if (box.isEmpty()) return 0;
-    const V3d size = V3d(box.max) - V3d(box.min);
-    return size.x * size.y + size.y * size.z + size.z * size.x;
-}
 
 SahTopology build_sah_topology(std::vector<SahItem>& items, const SahOptions& options) {
     return Builder(items, options).build();

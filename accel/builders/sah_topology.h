@@ -75,7 +75,11 @@ struct SahTopology {
 
 /// Half the surface of a box, xy + yz + zx, in doubles because a box may be as large as floats go; 0 of an
 /// empty one.
-double half_area(const Box3f& box);
+inline double half_area(const Box3f& box) {
+    if (box.isEmpty()) return 0;
+    const V3d size = V3d(box.max) - V3d(box.min);
+    return size.x * size.y + size.y * size.z + size.z * size.x;
+}
 
 /// Brings the items into the order of the leaves. Deterministic, whatever the number of threads.
 SahTopology build_sah_topology(std::vector<SahItem>& items, const SahOptions& options);

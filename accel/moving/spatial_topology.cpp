@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <memory>
 #include <span>
 
+#include "accel/builders/box_sum.h"
 #include "accel/builders/build_clock.h"
 #include "accel/builders/sah_bins.h"
 #include "accel/builders/sah_sweep.h"
@@ -70,9 +72,9 @@ class SpatialBuilder {
     SpatialTopology build(std::span<SahItem> items) {
         SpatialTopology result;
         if (!items.empty()) {
-            Box3f all;
-            for (const SahItem& item : items) extend(all, item.box);
-            root_area_ = half_area(all);
+            BoxSum all;
+            for (const SahItem& item : items) all.add(item.box);
+            root_area_ = half_area(all.box());
             if (options_.budget > 0) pose_all();
             const std::unique_ptr<SpatialNode> root = build_task(items, options_.budget, 0);
             result.references.reserve(items.size());
@@ -140,15 +142,16 @@ class SpatialBuilder {
         sah::Bin low, high;
         if (all.size() <= kSortUpTo) {
             best.sorted = true;
+            const Box3f centroids = extent.centroids.box();
+            const double visit = half_area(extent.all.box()) * kTraversalCost;
             for (int axis = 0; axis < 3; ++axis)
-                if (extent.centroids.max[axis] > extent.centroids.min[axis])
-                    sah::AxisOrder(all, axis).consider(axis, half_area(extent.all.box) * kTraversalCost,
-                                                       best.split);
+                if (centroids.max[axis] > centroids.min[axis])
+                    sah::AxisOrder(all, axis).consider(axis, visit, best.split);
             if (!(best.split.cost < sah::kInfinite)) return best;
             const sah::AxisOrder order(all, best.split.axis);
             for (size_t i = 0; i < all.size(); ++i) (i < best.split.place ? low : high).add(order[i]);
         } else {
-            best.binning = sah::Binning(extent.centroids);
+            best.binning = sah::Binning(extent.centroids.box());
             const sah::Bins bins = sah::sum_of(all, sah::Bins{&best.binning, {}});
             best.split = sah::best_of_bins(bins, extent);
             if (!(best.split.cost < sah::kInfinite)) return best;
@@ -156,7 +159,7 @@ class SpatialBuilder {
                 (b < best.split.place ? low : high)
                     .add(bins.of_axis[static_cast<size_t>(best.split.axis)][b]);
         }
-        best.low = low.box, best.high = high.box;
+        best.low = low.box(), best.high = high.box();
         return best;
     }
 
@@ -185,10 +188,11 @@ class SpatialBuilder {
             const sah::Extent extent = sah::sum_of(std::span<const SahItem>(references), sah::Extent{});
             const Parting parting = best_parting(references, extent);
             // Costs of splits have kTraversalCost in them.
-            const double visit = half_area(extent.all.box) * (kVisitCost - kTraversalCost);
+            const Box3f box = extent.all.box();
+            const double visit = half_area(box) * (kVisitCost - kTraversalCost);
             const double leaf_cost = may_be_leaf ? extent.all.cost() - visit : sah::kInfinite;
             const double to_beat = std::min(parting.split.cost, leaf_cost);
-            if (cut(references, extent.all.box, parting, to_beat, budget, node, low, high)) return true;
+            if (cut(references, box, parting, to_beat, budget, node, low, high)) return true;
             if (may_be_leaf && !(parting.split.cost < leaf_cost)) return false;
             if (parting.split.cost < sah::kInfinite) middle = part(parting, references);
         } else if (may_be_leaf) {
@@ -249,7 +253,8 @@ class SpatialBuilder {
         return parts;
     }
 
-    /// The planes between slabs of a node's box along an axis; none where coordinates are as coarse as slabs.
+    /// The planes between slabs of a node's box along an axis; none where coordinates are as coarse as slabs,
+    /// or slabs too thin to be counted.
     struct Slabs {
         int axis;
         size_t count = 0;
@@ -262,23 +267,32 @@ class SpatialBuilder {
                                                 (static_cast<float>(i) / static_cast<float>(wanted));
             const auto end = planes.begin() + static_cast<std::ptrdiff_t>(wanted) + 1;
             if (std::adjacent_find(planes.begin(), end, std::greater_equal<>()) == end) count = wanted;
+            if (count == 0) return;
+            per_unit_ = static_cast<float>(count) / (planes[count] - planes[0]);
+            if (!std::isfinite(per_unit_)) count = 0;
+            last_ = static_cast<float>(count - 1);
         }
         size_t of(float x) const {
-            const float along_slabs =
-                (x - planes[0]) / (planes[count] - planes[0]) * static_cast<float>(count);
-            auto slab = static_cast<size_t>(std::clamp(along_slabs, 0.0f, static_cast<float>(count - 1)));
+            const float along_slabs = (x - planes[0]) * per_unit_;
+            auto slab = static_cast<size_t>(static_cast<int>(std::clamp(along_slabs, 0.0f, last_)));
             while (slab > 0 && x < planes[slab]) --slab;  // what was rounded
             while (slab + 1 < count && x >= planes[slab + 1]) ++slab;
             return slab;
         }
+
+      private:
+        float per_unit_ = 0, last_ = 0;
     };
 
-    /// What lies in slabs: boxes, and how many references begin and end there; whole boxes of these.
-    struct InSlabs {
-        std::array<Box3f, kMostSlabs> boxes;
-        std::array<size_t, kMostSlabs> begin{}, end{};
-        std::array<Box3f, kMostSlabs> of_begin, of_end;
+    /// What lies in a slab: boxes, and how many references begin and end there; whole boxes of these.
+    struct InSlab {
+        BoxSum boxes, of_begin, of_end;
+        uint32_t begin = 0, end = 0;
+
+        void begins(const Box3f& whole) { of_begin.add(whole), ++begin; }
+        void ends(const Box3f& whole) { of_end.add(whole), ++end; }
     };
+    using InSlabs = std::array<InSlab, kMostSlabs>;
 
     /// The cheapest of the planes between slabs along that axis which is best if boxes are cut without
     /// looking at what is in them: that tells the axis, and spares two thirds of the work. What is in them is
@@ -304,55 +318,45 @@ class SpatialBuilder {
             add_polygons(references, slabs, in);
         else
             add_boxes(references, slabs, in);
-        std::array<Box3f, kMostSlabs + 1> above, whole_above;
-        for (size_t i = slabs.count; i-- > 0;) {
-            above[i] = above[i + 1], extend(above[i], in.boxes[i]);
-            whole_above[i] = whole_above[i + 1], extend(whole_above[i], in.of_begin[i]);
+        const double visit = node_area * kTraversalCost;
+        std::array<BoxSum, kMostSlabs + 1> above;
+        std::array<double, kMostSlabs> area_above, whole_area_above;
+        BoxSum whole_above;
+        for (size_t i = slabs.count; i-- > 1;) {
+            above[i] = above[i + 1], above[i].add(in[i].boxes);
+            whole_above.add(in[i].of_begin);
+            area_above[i] = half_area(above[i].box()), whole_area_above[i] = half_area(whole_above.box());
         }
         Cut here;
-        Box3f below, whole_below;
+        BoxSum below, whole_below;
         size_t low = 0, high = references.size();
         for (size_t i = 1; i < slabs.count; ++i) {
-            extend(below, in.boxes[i - 1]), extend(whole_below, in.of_end[i - 1]);
-            low += in.begin[i - 1], high -= in.end[i - 1];
+            below.add(in[i - 1].boxes), whole_below.add(in[i - 1].of_end);
+            low += in[i - 1].begin, high -= in[i - 1].end;
             if (low == 0 || high == 0) continue;
-            here.least = std::min(here.least, node_area * kTraversalCost +
-                                                  area_of(whole_below) * static_cast<double>(low) +
-                                                  area_of(whole_above[i]) * static_cast<double>(high));
-            const double cost = node_area * kTraversalCost + half_area(below) * static_cast<double>(low) +
-                                half_area(above[i]) * static_cast<double>(high);
+            here.least =
+                std::min(here.least, visit + half_area(whole_below.box()) * static_cast<double>(low) +
+                                         whole_area_above[i] * static_cast<double>(high));
+            const Box3f low_box = below.box();
+            const double cost = visit + half_area(low_box) * static_cast<double>(low) +
+                                area_above[i] * static_cast<double>(high);
             if (cost < here.cost)
-                here = {cost, slabs.axis, slabs.planes[i], below, above[i], low, high, here.least};
+                here = {cost, slabs.axis, slabs.planes[i], low_box, above[i].box(), low, high, here.least};
         }
         if (here.cost < best.cost) best = here;
-    }
-
-    /// Half of the surface; none of a box of nothing.
-    static double area_of(const Box3f& box) { return box.isEmpty() ? 0 : half_area(box); }
-
-    /// Without branches, which Box3f::extendBy() has.
-    static void extend(Box3f& box, const Box3f& other) {
-        for (int k = 0; k < 3; ++k) {
-            box.min[k] = std::min(box.min[k], other.min[k]);
-            box.max[k] = std::max(box.max[k], other.max[k]);
-        }
     }
 
     static void add_boxes(std::span<const SahItem> references, const Slabs& slabs, InSlabs& in) {
         for (const SahItem& item : references) {
             const size_t first = slabs.of(item.box.min[slabs.axis]);
             const size_t last = std::max(first, slabs.of(item.box.max[slabs.axis]));
-            ++in.begin[first], ++in.end[last];
-            extend(in.of_begin[first], item.box), extend(in.of_end[last], item.box);
-            for (size_t slab = first; slab <= last; ++slab) extend(in.boxes[slab], item.box);
+            in[first].begins(item.box), in[last].ends(item.box);
+            for (size_t slab = first; slab <= last; ++slab) in[slab].boxes.add(item.box);
         }
         // What planes cut off is the same for all boxes in a slab.
         for (size_t slab = 0; slab < slabs.count; ++slab) {
-            Box3f& box = in.boxes[slab];
-            if (box.isEmpty()) continue;
-            if (slab > 0) box.min[slabs.axis] = std::max(box.min[slabs.axis], slabs.planes[slab]);
-            if (slab + 1 < slabs.count)
-                box.max[slabs.axis] = std::min(box.max[slabs.axis], slabs.planes[slab + 1]);
+            if (slab > 0) in[slab].boxes.cut_below(slabs.axis, slabs.planes[slab]);
+            if (slab + 1 < slabs.count) in[slab].boxes.cut_above(slabs.axis, slabs.planes[slab + 1]);
         }
     }
 
@@ -361,17 +365,17 @@ class SpatialBuilder {
         for (const SahItem& item : references) {
             const size_t first = slabs.of(item.box.min[slabs.axis]);
             const size_t last = std::max(first, slabs.of(item.box.max[slabs.axis]));
-            ++in.begin[first], ++in.end[last];
+            in[first].begins(item.box), in[last].ends(item.box);
             Box3f rest = item.box;
             if (first < last) {
                 const QuadPose& pose = pose_at_middle(item.id);
                 for (size_t slab = first; slab < last && !rest.isEmpty(); ++slab) {
                     const Chopped parts = chop(pose, rest, slabs.axis, slabs.planes[slab + 1]);
-                    if (!parts.low.isEmpty()) extend(in.boxes[slab], parts.low);
+                    if (!parts.low.isEmpty()) in[slab].boxes.add(parts.low);
                     rest = parts.high;
                 }
             }
-            if (!rest.isEmpty()) extend(in.boxes[last], rest);
+            if (!rest.isEmpty()) in[last].boxes.add(rest);
         }
     }
 
