@@ -7,8 +7,6 @@ namespace {
 
 /// Pieces of an interval that are measured first, and where these want more segments than that.
 constexpr int kCoarsePieces = kCoarseEdgePieces, kFinePieces = 8;
-/// A face's parameter between a line and the one beside it.
-constexpr float kBeside = 1.0f / 16384;
 
 /// Cuts one edge into intervals, halving as long as the measure wants.
 class EdgeCutter {
@@ -66,7 +64,8 @@ class EdgeCutter {
         for (int i = 0; i <= pieces; ++i) uv[i] = line_uv(line_, pieces_of, i);
         if (beside) {
             const int across = line_.from.x == line_.to.x ? 0 : 1;
-            for (int i = 0; i <= pieces; ++i) uv[i][across] += uv[i][across] < 0.5f ? kBeside : -kBeside;
+            constexpr float kInside = FaceLattices::kBeside;
+            for (int i = 0; i <= pieces; ++i) uv[i][across] += uv[i][across] < 0.5f ? kInside : -kInside;
         }
         const size_t n = pieces + 1;
         const std::span<V3f> P{(beside ? beside_ : P_).data(), n * keys};

@@ -5,11 +5,14 @@
 
 #include <bit>
 #include <cmath>
+#include <functional>
+#include <string>
 
 #include "core/random.h"
 #include "core/simd/targets_harness.h"
 #include "tessellate/dicing_harness.h"
 #include "tessellate/measure/lattice_measure.h"
+#include "tessellate/mesh_harness.h"
 #include "tessellate/split.h"
 #include "tessellate/surfaces/camera_facing.h"
 #include "tessellate/surfaces/curve_values.h"
@@ -21,6 +24,7 @@ namespace {
 using testing::for_each_target;
 using testing::kBezier;
 using testing::kBSpline;
+using testing::kCatmullRom;
 using testing::TestScene;
 
 bool same_bits(const V3f& a, const V3f& b) {
@@ -87,21 +91,37 @@ struct Measured {
     std::unique_ptr<LineMeasure> measure;
     EdgeRate rate;
 
-    Measured(std::shared_ptr<const Shape> shape, const M44f& place) {
+    Measured(std::shared_ptr<const Shape> shape, const M44f& place)
+        : Measured(std::vector{std::move(shape)}, std::vector{place}, 0) {}
+
+    /// `lens`: the aperture's radius at a focal distance of 4.
+    Measured(std::vector<std::shared_ptr<const Shape>> shapes, std::vector<M44f> places, float lens) {
         scene.scene.options.width = 640, scene.scene.options.height = 480;
-        scene.add(std::move(shape), place);
+        scene.add(std::move(shapes), std::move(places));
         context = scene.context();
+        if (lens > 0) context.camera.lens_radius = lens, context.camera.focal_distance = 4;
         const Primitive& primitive = scene.scene.primitives[0];
         surface = make_surface(primitive, scene.diagnostics, {&context.camera, nullptr});
-        placed = std::make_unique<PlacedSurface>(*surface, primitive, false);
+        placed = std::make_unique<PlacedSurface>(*surface, primitive, context.motion);
         metric = std::make_unique<ScreenMetric>(context.camera);
         measure =
             std::make_unique<LineMeasure>(*metric, context.camera, *placed, false, rate.pixels_per_segment);
     }
-    V3f object_point(int face, V2f uv) const {
+    V3f object_point(int face, V2f uv, int shape_key, EvaluationScratch& scratch) const {
         V3f P;
-        surface->evaluate(face, {&uv, 1}, 0, nullptr, {&P, 1}, {}, {});
+        surface->evaluate(face, {&uv, 1}, shape_key, scratch.of(*surface), {&P, 1}, {}, {});
         return P;
+    }
+    /// Keys that lines are measured at.
+    int keys() const { return std::max(measure->keys(), 1); }
+    /// The block of faces from `first` on, at all of those.
+    std::vector<FaceLattices> lattices(int first) const {
+        std::vector<FaceLattices> all(static_cast<size_t>(keys()));
+        const int count = std::min(surface->face_count() - first, FaceLattices::kFaces);
+        for (int key = 0; key < keys(); ++key)
+            surface->lattices(first, count, placed->mix_of(key).first, measure->keys() > 0,
+                              all[static_cast<size_t>(key)]);
+        return all;
     }
 };
 
@@ -111,9 +131,50 @@ M44f mirrored() {
     return m * testing::translation(0.1f, 0, 4);
 }
 
-/// Calls f for faces of each kind.
+/// A sheet of bumps, n x n quads of which one is cut into two triangles where `triangles`, as wide as 2.4.
+testing::Cage bumpy(int n, float height, bool triangles) {
+    testing::Cage cage = testing::sheet_cage(n, height);
+    const float scale = 2.4f / static_cast<float>(n);
+    for (size_t i = 0; i < cage.P.size(); ++i) cage.P[i] = i % 3 == 2 ? cage.P[i] : cage.P[i] * scale - 1.2f;
+    if (!triangles) return cage;
+    testing::Cage cut = cage;
+    cut.sizes.clear(), cut.vertices.clear();
+    for (size_t f = 0; f < cage.sizes.size(); ++f) {
+        const int* const q = cage.vertices.data() + 4 * f;
+        cut.sizes.insert(cut.sizes.end(), {3, 3});
+        cut.vertices.insert(cut.vertices.end(), {q[0], q[1], q[2], q[0], q[2], q[3]});
+    }
+    return cut;
+}
+
+std::shared_ptr<const Shape> subdivided(
+    const testing::Cage& cage, std::vector<SubdivisionMesh::Tag> tags = {},
+    SubdivisionMesh::Scheme scheme = SubdivisionMesh::Scheme::CatmullClark) {
+    ParameterList variables;
+    variables.set(testing::points(cage.P));
+    return testing::shape_of(testing::subdivision_of(cage, std::move(tags), scheme), variables);
+}
+
+std::shared_ptr<const Shape> polygons(const testing::Cage& cage) {
+    ParameterList variables;
+    variables.set(testing::points(cage.P));
+    return testing::shape_of(testing::polygons_of(cage), variables);
+}
+
+std::shared_ptr<const Shape> patches(int n, bool bicubic, const M44f& basis, int step) {
+    PatchMesh mesh;
+    mesh.bicubic = bicubic;
+    mesh.nu = mesh.nv = n;
+    mesh.u_basis = mesh.v_basis = basis;
+    mesh.u_step = mesh.v_step = step;
+    ParameterList variables;
+    variables.set(testing::points(bumpy(n - 1, 0.1f, false).P));
+    return testing::shape_of(mesh, variables);
+}
+
+/// Calls f for kinds of which foreshortening is not looked at.
 template <class F>
-void for_kinds(const F& f) {
+void for_kinds_not_foreshortened(const F& f) {
     const M44f in_front = testing::translation(0, 0, 4);
     f(Measured(hairs_of(kBezier, 3, std::vector<int>(37, 4), StorageClass::Constant, 0.1f), in_front));
     f(Measured(hairs_of(kBezier, 3, std::vector<int>(20, 7), StorageClass::Vertex, 0.05f), mirrored()));
@@ -127,34 +188,98 @@ void for_kinds(const F& f) {
                testing::translation(0, 0, 0.5f)));
 }
 
+M44f tilted(float angle, float depth) {
+    M44f m;
+    m.rotate(V3f(angle, 0.2f, 0));
+    return m * testing::translation(0, 0, depth);
+}
+
+/// Calls f for each kind of meshes, still and moving, seen edge-on and in and out of focus.
+template <class F>
+void for_meshes(const F& f) {
+    const auto still = [&](std::shared_ptr<const Shape> shape, const M44f& place) {
+        f(Measured(std::move(shape), place));
+    };
+    still(subdivided(bumpy(40, 0.1f, false)), tilted(0.3f, 4));
+    still(subdivided(bumpy(24, 0.02f, false), {{"interpolateboundary", {}, {}, {}}}), tilted(1.5f, 4));
+    still(subdivided(bumpy(24, 0.1f, false), {{"crease", {30, 31, 32, 33}, {3}, {}}}), tilted(0.8f, 3));
+    still(subdivided(bumpy(12, 0.1f, true)), tilted(0.3f, 4));
+    still(subdivided(bumpy(20, 0.1f, false), {}, SubdivisionMesh::Scheme::Bilinear), tilted(0.3f, 4));
+    still(subdivided(testing::prism_cage(7)), tilted(0.3f, 6));
+    still(polygons(bumpy(9, 0, false)), tilted(0.3f, 4));
+    still(polygons(bumpy(40, 0.1f, false)), tilted(1.2f, 4));
+    still(polygons(bumpy(24, 0.1f, true)), tilted(0.3f, 4));
+    still(polygons(testing::prism_cage(5)), tilted(0.3f, 60));
+    still(patches(43, true, kBSpline, 1), tilted(0.3f, 4));
+    still(patches(43, true, kBezier, 3), tilted(1.5f, 4));
+    still(patches(30, true, kCatmullRom, 1), tilted(0.8f, 2));
+    still(patches(30, false, kBezier, 3), tilted(1.2f, 4));
+    // Tiny: no face asks for more than one segment. Through the eye.
+    still(subdivided(bumpy(20, 0.1f, false)), tilted(0.3f, 300));
+    still(polygons(bumpy(9, 0.1f, false)), tilted(1.5f, 0.3f));
+    const auto moving = [&](std::vector<std::shared_ptr<const Shape>> shapes, std::vector<M44f> places,
+                            float lens) { f(Measured(std::move(shapes), std::move(places), lens)); };
+    moving({subdivided(bumpy(30, 0.1f, false))}, {tilted(0.3f, 4)}, 0.3f);
+    moving({subdivided(bumpy(30, 0.1f, false))}, {tilted(0.3f, 4), tilted(0.6f, 5)}, 0);
+    moving({polygons(bumpy(24, 0.1f, true))}, {tilted(1.4f, 4), tilted(1.5f, 4), tilted(1.7f, 4)}, 0.1f);
+    moving({patches(31, true, kBSpline, 1), patches(31, true, kBezier, 1)}, {tilted(0.3f, 4)}, 0);
+    moving({subdivided(bumpy(30, 0.1f, false)), subdivided(bumpy(30, 0.02f, false)),
+            subdivided(bumpy(30, 0, false))},
+           {tilted(0.3f, 4), tilted(1.2f, 4)}, 0);
+}
+
+template <class F>
+void for_kinds(const F& f) {
+    for_kinds_not_foreshortened(f);
+    for_meshes(f);
+}
+
+/// Expects one point of a block's faces to be where evaluation puts it.
+void expect_point(const Measured& faces, const FaceLattices& lattices, int first, int shape_key, int number,
+                  V2f uv, EvaluationScratch& scratch) {
+    for (int i = 0; i < FaceLattices::kFaces; ++i) {
+        if (!(lattices.there >> i & 1)) continue;
+        const FaceLattices::Point& P = lattices.points[number];
+        ASSERT_TRUE(
+            same_bits({P[0][i], P[1][i], P[2][i]}, faces.object_point(first + i, uv, shape_key, scratch)))
+            << first + i << " " << uv;
+    }
+}
+
 TEST(FaceLattices, AreTheSamePointsAsOneByOneOnEveryInstructionSet) {
-    for_kinds([](const Measured& faces) {
+    using Lattice = FaceLattices;
+    int there = 0, all = 0;
+    for_kinds([&](const Measured& faces) {
         ASSERT_TRUE(faces.surface->has_lattices());
+        EvaluationScratch scratch;
         for_each_target([&] {
-            int there = 0;
-            const int all = faces.surface->face_count();
-            for (int first = 0; first < all; first += FaceLattices::kFaces) {
-                const int count = std::min(all - first, FaceLattices::kFaces);
-                FaceLattices lattices;
-                faces.surface->lattices(first, count, lattices);
-                EXPECT_EQ(lattices.there >> count, 0u);
-                for (int i = 0; i < count; ++i) {
-                    if (!(lattices.there >> i & 1)) continue;
-                    ++there;
-                    for (int r = 0; r < FaceLattices::kRows; ++r)
-                        for (int c = 0; c < FaceLattices::kColumns; ++c) {
-                            if (!FaceLattices::has(r, c)) continue;
-                            const auto& P = lattices.P[r][c];
-                            const V2f uv = FaceLattices::uv(r, c);
-                            ASSERT_TRUE(
-                                same_bits({P[0][i], P[1][i], P[2][i]}, faces.object_point(first + i, uv)))
-                                << first + i << " " << uv;
+            for (int first = 0; first < faces.surface->face_count(); first += Lattice::kFaces) {
+                const int count = std::min(faces.surface->face_count() - first, Lattice::kFaces);
+                const std::vector<FaceLattices> keys = faces.lattices(first);
+                all += count;
+                there += std::popcount(keys[0].there);
+                for (int key = 0; key < faces.keys(); ++key) {
+                    const FaceLattices& lattices = keys[static_cast<size_t>(key)];
+                    const int shape_key = faces.placed->mix_of(key).first;
+                    EXPECT_EQ(lattices.there >> count, 0u);
+                    const auto expect_at = [&](int number, V2f uv) {
+                        expect_point(faces, lattices, first, shape_key, number, uv, scratch);
+                    };
+                    for (int r = 0; r < Lattice::kLines; ++r)
+                        for (int c = 0; c < Lattice::kLines; ++c)
+                            expect_at(Lattice::inner(r, c), Lattice::inner_uv(r, c));
+                    for (int side = 0; side < 4; ++side)
+                        for (int i = 0; i < Lattice::kSidePoints; ++i) {
+                            expect_at(Lattice::side(side, i), Lattice::side_uv(lattices.runs, side, i));
+                            if (faces.measure->keys() > 0)
+                                expect_at(Lattice::beside(side, i),
+                                          Lattice::beside_uv(lattices.runs, side, i));
                         }
                 }
             }
-            EXPECT_GT(there, all / 4);
         });
     });
+    EXPECT_GT(there, all / 2);
 }
 
 /// The formula for one point, with nothing in vectors.
@@ -187,51 +312,106 @@ TEST(RibbonRows, AreAsTheCameraFacesThemOnEveryInstructionSet) {
     });
 }
 
+/// A line of a face, its points at all keys and those beside it, one by one.
+struct Line {
+    std::vector<V3f> P, beside;
+
+    Line(const Measured& faces, int face, int pieces, const std::function<V2f(int)>& uv,
+         const std::function<V2f(int)>& beside_uv, EvaluationScratch& scratch) {
+        std::vector<V2f> at, besides;
+        for (int i = 0; i <= pieces; ++i) at.push_back(uv(i)), besides.push_back(beside_uv(i));
+        const size_t n = at.size() * static_cast<size_t>(faces.keys());
+        P.resize(n), beside.resize(n);
+        faces.placed->positions(face, at, faces.keys(), scratch, P);
+        faces.placed->positions(face, besides, faces.keys(), scratch, beside);
+    }
+};
+
+void expect_same(const RateEstimate& got, const RateEstimate& expected, const std::string& what) {
+    EXPECT_EQ(got.sum, expected.sum) << what;
+    EXPECT_EQ(got.longest, expected.longest) << what;
+    EXPECT_EQ(got.pieces, expected.pieces) << what;
+    EXPECT_EQ(got.deep, expected.deep) << what;
+}
+
+/// Whole lines of faces that are measured, also those that are asked for only by some.
 TEST(LatticeLines, AreAsLongAsOneByOneOnEveryInstructionSet) {
-    for_kinds([](const Measured& faces) {
+    using Lattice = FaceLattices;
+    int measured = 0, all = 0, foreshortened = 0, eights = 0;
+    const auto see = [&](const Measured& faces) {
         EvaluationScratch scratch;
+        const float rate = faces.rate.pixels_per_segment;
         for_each_target([&] {
-            FaceLattices lattices;
+            const int first = faces.surface->face_count() / 2 / Lattice::kFaces * Lattice::kFaces;
+            const std::vector<FaceLattices> lattices = faces.lattices(first);
+            std::vector<PlacedLattices> keys;
+            for (int key = 0; key < faces.keys(); ++key)
+                keys.push_back({&lattices[static_cast<size_t>(key)], faces.placed->camera_from_object(key)});
             LatticeLines lines;
-            const int count = std::min(faces.surface->face_count(), FaceLattices::kFaces);
-            faces.surface->lattices(0, count, lattices);
-            faces.measure->of(lattices, faces.placed->camera_from_object(0), lines);
-            const auto expect_same = [&](int face, V2f from, V2f to, const LatticeLine& line) {
-                std::vector<V2f> uv;
-                for (int i = 0; i <= line.pieces; ++i)
-                    uv.push_back(from +
-                                 (to - from) * (static_cast<float>(i) / static_cast<float>(line.pieces)));
-                std::vector<V3f> P(uv.size());
-                faces.placed->positions(face, uv, 1, scratch, P);
-                const RateEstimate expected = faces.measure->of(P), got = line.of(face);
-                EXPECT_EQ(got.sum, expected.sum) << face << from << to;
-                EXPECT_EQ(got.longest, expected.longest) << face << from << to;
-                EXPECT_EQ(got.pieces, expected.pieces);
-            };
-            for (int face = 0; face < count; ++face) {
-                if (!(lines.measured >> face & 1)) continue;
-                for (int i = 0; i < 5; ++i) {
-                    const float at = static_cast<float>(i) / 4;
-                    expect_same(face, {0, at}, {1, at}, lines.four[0][i]);
-                    expect_same(face, {at, 0}, {at, 1}, lines.four[1][i]);
-                }
-                for (int i = 0; i < 3; ++i) {
-                    const float at = static_cast<float>(i) / 2;
-                    expect_same(face, {0, at}, {1, at}, lines.two[0][i]);
-                    expect_same(face, {at, 0}, {at, 1}, lines.two[1][i]);
-                }
-                for (int i = 0; i < 2; ++i) {
-                    const float at = static_cast<float>(i);
-                    expect_same(face, {at, 0}, {at, 1}, lines.eight[i]);
+            faces.measure->of(keys, lines);
+            all += std::min(faces.surface->face_count() - first, Lattice::kFaces);
+            measured += std::popcount(lines.measured);
+            for (int i = 0; i < Lattice::kFaces; ++i) {
+                if (!(lines.measured >> i & 1)) continue;
+                // Returns whether the line wants more than four segments.
+                const auto expect_line = [&](const Line& line, const LatticeLine& lengths,
+                                             const LatticeLine* seen, const std::string& what) {
+                    const size_t points = line.P.size() / keys.size();
+                    const RateEstimate expected = faces.measure->of(std::span(line.P).first(points));
+                    expect_same(lengths.of(i), expected, what);
+                    if (seen && faces.measure->may_want_less(expected)) {
+                        expect_same(seen->of(i), faces.measure->foreshortened(line.P, line.beside),
+                                    what + ", foreshortened");
+                        ++foreshortened;
+                    }
+                    return expected.segments(rate) > kCoarseEdgePieces;
+                };
+                const std::string name = "face " + std::to_string(first + i);
+                for (int axis = 0; axis < 2; ++axis)
+                    for (int number = 0; number < Lattice::kLines; ++number)
+                        for (const int pieces : {2, 4}) {
+                            if (pieces == 2 && number % 2 == 1) continue;
+                            const auto uv = [&](int line, int k) {
+                                const int along = k * (4 / pieces);
+                                return axis == 0 ? Lattice::inner_uv(line, along)
+                                                 : Lattice::inner_uv(along, line);
+                            };
+                            const int beside = number > 0 ? number - 1 : 1;
+                            const Line line(
+                                faces, first + i, pieces, [&](int k) { return uv(number, k); },
+                                [&](int k) { return uv(beside, k); }, scratch);
+                            const LatticeLine& lengths =
+                                pieces == 2 ? lines.two[axis][number / 2] : lines.lengths.four[axis][number];
+                            expect_line(line, lengths, pieces == 2 ? nullptr : &lines.seen.four[axis][number],
+                                        name + " axis " + std::to_string(axis));
+                        }
+                for (int side = 0; side < 4; ++side) {
+                    const FaceRuns runs = lattices[0].runs;
+                    const auto line = [&](int pieces) {
+                        return Line(
+                            faces, first + i, pieces,
+                            [&](int k) { return Lattice::side_uv(runs, side, k * (8 / pieces)); },
+                            [&](int k) { return Lattice::beside_uv(runs, side, k * (8 / pieces)); }, scratch);
+                    };
+                    const std::string what = name + " side " + std::to_string(side);
+                    if (!expect_line(line(4), lines.lengths.side_four[side], &lines.seen.side_four[side],
+                                     what))
+                        continue;
+                    expect_line(line(8), lines.lengths.side_eight[side], &lines.seen.side_eight[side], what);
+                    ++eights;
                 }
             }
         });
-    });
+    };
+    for_kinds(see);
+    EXPECT_GT(measured, all / 3);
+    EXPECT_GT(foreshortened, 1000);
+    EXPECT_GT(eights, 100);
 }
 
 /// Edges and subpatches are those that a closer look gives.
 TEST(FaceEstimates, ChangeNothing) {
-    int known = 0, unknown = 0;
+    int known = 0, unknown = 0, known_edges = 0, unknown_edges = 0;
     for_kinds([&](const Measured& faces) {
         const std::vector<FaceEstimate> estimates = estimate_faces(*faces.placed, *faces.measure, faces.rate);
         ASSERT_EQ(static_cast<int>(estimates.size()), faces.surface->face_count());
@@ -240,9 +420,8 @@ TEST(FaceEstimates, ChangeNothing) {
         for (uint32_t e = 0; e < faces.surface->edge_count(); ++e) {
             const EdgeLine line = faces.surface->edge(e);
             edges.add(*faces.placed, line, *faces.measure, faces.rate, scratch);
-            const int side = side_along(line);
-            ASSERT_GE(side, 0);
-            const int segments = estimates[line.face].sides[side];
+            const int segments = estimates[static_cast<size_t>(line.face)].segments_of(line);
+            ++(segments > 0 ? known_edges : unknown_edges);
             if (segments == 0) continue;
             ASSERT_EQ(edges.of(e).size(), 1u);
             EXPECT_EQ(edges.of(e)[0].segments, segments);
@@ -256,6 +435,8 @@ TEST(FaceEstimates, ChangeNothing) {
         const Splits expected = split_faces(context, 0, all);
         context.estimates = estimates;
         const Splits got = split_faces(context, 0, all);
+        ASSERT_EQ(got.bounds.size(), expected.bounds.size());
+        for (size_t i = 0; i < got.bounds.size(); ++i) EXPECT_EQ(got.bounds[i], expected.bounds[i]);
         ASSERT_EQ(got.subpatches.size(), expected.subpatches.size());
         EXPECT_EQ(got.culled, expected.culled);
         for (size_t i = 0; i < got.subpatches.size(); ++i) {
@@ -267,8 +448,10 @@ TEST(FaceEstimates, ChangeNothing) {
         }
         for (const FaceEstimate& estimate : estimates) ++(estimate.nu > 0 ? known : unknown);
     });
-    EXPECT_GT(known, 40);
+    EXPECT_GT(known, unknown);
     EXPECT_GT(unknown, 10);
+    EXPECT_GT(known_edges, unknown_edges);
+    EXPECT_GT(unknown_edges, 10);
 }
 
 }  // namespace

@@ -63,6 +63,10 @@ class SharedGrids final : public TopologySurface<SharedGrids> {
     }
     V2f faces_per_unit(int face) const override { return surface_->faces_per_unit(face); }
     bool is_faceted() const override { return surface_->is_faceted(); }
+    bool has_lattices() const override { return surface_->has_lattices(); }
+    void lattices(int first, int count, int shape_key, bool beside, FaceLattices& lattices) const override {
+        surface_->lattices(first, count, shape_key, beside, lattices);
+    }
 
     /// Two threads may evaluate the same points at once and both put them away: that wastes memory and
     /// changes nothing.

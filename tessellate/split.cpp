@@ -240,7 +240,12 @@ class FaceSplitter {
     RasterBound::Result bound(const SplitNode& node) {
         const int keys = surface_.key_count();
         boxes_.assign(keys, {});
-        for (int key = 0; key < keys; ++key) boxes_[key] = surface_.bound(face_, node.lo, node.hi, key);
+        const bool whole = node.depth_u == 0 && node.depth_v == 0;
+        const FaceEstimate* const known =
+            whole && !context_.estimates.empty() ? &context_.estimates[face_] : nullptr;
+        for (int key = 0; key < keys; ++key)
+            boxes_[key] = known && known->bounded ? surface_.bound(known->bound, key)
+                                                  : surface_.bound(face_, node.lo, node.hi, key);
         if (boxes_[0].isEmpty()) sampled_bound(node);
         add_moved_corners(node);
         for (Box3f& box : boxes_) {

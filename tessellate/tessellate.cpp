@@ -83,8 +83,7 @@ EdgeTessellations tessellate_edges(const PlacedSurface& placed, const LineMeasur
         const size_t end = std::min<size_t>((task + 1) * kEdgesPerTask, count);
         for (size_t i = task * kEdgesPerTask; i < end; ++i) {
             const EdgeLine line = surface.edge(order[i]);
-            const int side = estimates.empty() ? -1 : side_along(line);
-            const uint8_t segments = side < 0 ? uint8_t{0} : estimates[line.face].sides[side];
+            const uint8_t segments = estimates.empty() ? uint8_t{0} : estimates[line.face].segments_of(line);
             if (segments > 0)
                 parts[task].add_whole(segments);
             else

@@ -1,6 +1,7 @@
 #include "tessellate/measure/lattice_measure.h"
 
 #include <cstdint>
+#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tessellate/measure/lattice_measure.cpp"
@@ -10,115 +11,298 @@
 #include "core/simd/simd-inl.h"
 #include "tessellate/topology/lane_vectors-inl.h"
 
+#ifndef TRAPEZE_TESSELLATE_LATTICE_MEASURE_ONCE
+#define TRAPEZE_TESSELLATE_LATTICE_MEASURE_ONCE
+namespace trapeze {
+
+/// A line's points by their numbers among a lattice's: first + i * step. Those beside it likewise.
+struct LineNumbers {
+    int first = 0, step = 1, pieces = 4, beside = 0;
+};
+
+/// The inner line `number` along an axis, in two pieces or four; beside it lies the one before it, or beside
+/// the first one the next (FaceSplitter).
+inline LineNumbers inner_line(int axis, int number, int pieces) {
+    constexpr int kLines = FaceLattices::kLines;
+    const int across = axis == 0 ? kLines : 1, along = axis == 0 ? 1 : kLines;
+    const int neighbour = number > 0 ? number - 1 : number + 1;
+    return {number * across, along * (4 / pieces), pieces, neighbour * across};
+}
+
+/// The edge along a side.
+inline LineNumbers side_line(int side, int pieces) {
+    return {FaceLattices::side(side, 0), 8 / pieces, pieces, FaceLattices::beside(side, 0)};
+}
+
+}  // namespace trapeze
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace trapeze {
 namespace HWY_NAMESPACE {
 
 using F = hn::CappedTag<float, FaceLattices::kFaces>;
 using Lanes = hn::Vec<F>;
+using LaneVector = LaneVectors<F>;
+using LaneMask = hn::Mask<F>;
 
-/// Points of as many faces as there are lanes, in camera space, and in units of the image plane. Rows and
-/// columns that the lattice does not have hold nothing.
-struct Projected {
-    HWY_ALIGN float x[FaceLattices::kFaces], y[FaceLattices::kFaces], z[FaceLattices::kFaces];
-    HWY_ALIGN float image_x[FaceLattices::kFaces], image_y[FaceLattices::kFaces];
-};
-
-using ProjectedLattice = Projected[FaceLattices::kRows][FaceLattices::kColumns];
-
-/// As transform_point(), and ScreenMetric's test of what is in view.
-HWY_INLINE hn::Mask<F> project(const float (&P)[3][FaceLattices::kFaces], size_t first, const M44f& m,
-                               Lanes least, Projected& out) {
-    const F d;
-    const LaneVectors<F> object = {hn::Load(d, P[0] + first), hn::Load(d, P[1] + first),
-                                   hn::Load(d, P[2] + first)};
-    const LaneVectors<F> p = transformed_points(d, m, object);
-    const Lanes scale = hn::Div(hn::Set(d, 1), p.z);
-    hn::Store(p.x, d, out.x);
-    hn::Store(p.y, d, out.y);
-    hn::Store(p.z, d, out.z);
-    hn::Store(hn::Mul(p.x, scale), d, out.image_x);
-    hn::Store(hn::Mul(p.y, scale), d, out.image_y);
-    return hn::And(hn::Gt(p.z, hn::Zero(d)), hn::Ge(hn::Mul(p.z, p.z), hn::Mul(least, p.length2())));
+/// As std::max() and std::min() choose.
+HWY_INLINE Lanes larger(Lanes a, Lanes b) {
+    return hn::IfThenElse(hn::Lt(a, b), b, a);
+}
+HWY_INLINE Lanes smaller(Lanes a, Lanes b) {
+    return hn::IfThenElse(hn::Lt(b, a), b, a);
 }
 
-/// What pieces count: lengths as they are seen, or the least share of those seen square on.
-class PieceLengths {
-  public:
-    PieceLengths(const ScreenMetric& metric, float least_foreshortening)
-        : pixels_x_(hn::Set(F(), metric.pixels_x())),
-          pixels_y_(hn::Set(F(), metric.pixels_y())),
-          pixels_(hn::Set(F(), metric.pixels())),
-          least_(hn::Set(F(), least_foreshortening)) {}
+HWY_INLINE Lanes dot(const LaneVector& a, const LaneVector& b) {
+    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+HWY_INLINE LaneVector difference(const LaneVector& a, const LaneVector& b) {
+    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+HWY_INLINE LaneVector cross(const LaneVector& a, const LaneVector& b) {
+    return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
+            hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
+}
 
-    HWY_INLINE Lanes of(const Projected& p, const Projected& q) const {
+/// Points of as many faces as there are lanes, at one key: in camera space, and in units of the image plane,
+/// where beside ones are not wanted.
+struct LaneLattice {
+    HWY_ALIGN float at[FaceLattices::kPoints][3][FaceLattices::kFaces];
+    HWY_ALIGN float image[FaceLattices::kFirstBeside][2][FaceLattices::kFaces];
+
+    HWY_INLINE LaneVector point(int number) const {
         const F d;
-        const auto difference = [&](const float* to, const float* from) {
-            return hn::Sub(hn::Load(d, to), hn::Load(d, from));
-        };
-        const Lanes x = hn::Mul(difference(q.image_x, p.image_x), pixels_x_);
-        const Lanes y = hn::Mul(difference(q.image_y, p.image_y), pixels_y_);
-        const Lanes seen = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
-        const Lanes dx = difference(q.x, p.x), dy = difference(q.y, p.y), dz = difference(q.z, p.z);
-        const Lanes own = hn::Sqrt(hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz)));
-        const Lanes square_on = hn::Div(hn::Mul(hn::Mul(own, pixels_), hn::Set(d, 2)),
-                                        hn::Add(hn::Load(d, p.z), hn::Load(d, q.z)));
-        const Lanes at_least = hn::Mul(least_, square_on);
-        return hn::IfThenElse(hn::Lt(seen, at_least), at_least, seen);
+        const float(&p)[3][FaceLattices::kFaces] = at[number];
+        return {hn::Load(d, p[0]), hn::Load(d, p[1]), hn::Load(d, p[2])};
     }
-
-  private:
-    Lanes pixels_x_, pixels_y_, pixels_, least_;
 };
 
-/// Adds up a line along u (axis 0) or v, of points that are `step` rows or columns apart.
-HWY_INLINE void add_up(const ProjectedLattice& lattice, const PieceLengths& lengths, int axis, int number,
-                       int step, int pieces, size_t first, LatticeLine& line) {
-    const F d;
-    const auto point = [&](int i) -> const Projected& {
-        return axis == 0 ? lattice[number][i * step] : lattice[i * step][number];
-    };
-    Lanes sum = hn::Zero(d), longest = hn::Zero(d);
-    for (int i = 0; i < pieces; ++i) {
-        const Lanes length = lengths.of(point(i), point(i + 1));
+/// A line's numbers in lanes.
+struct LaneEstimate {
+    Lanes sum, longest;
+
+    HWY_INLINE LaneEstimate() : sum(hn::Zero(F())), longest(hn::Zero(F())) {}
+    HWY_INLINE void add(Lanes length) {
         sum = hn::Add(sum, length);
         longest = hn::IfThenElse(hn::Gt(length, longest), length, longest);
     }
-    hn::Store(sum, d, line.sum + first);
-    hn::Store(longest, d, line.longest + first);
-    line.pieces = pieces;
-}
+};
 
-/// The order of operations is that of ScreenMetric::perspective_length() and LineMeasure::of(): estimates
-/// must not depend on whether a face was measured alone.
-void measure_lanes(const FaceLattices& lattices, const M44f& camera_from_object, const ScreenMetric& metric,
-                   float least_foreshortening, LatticeLines& lines) {
-    const F d;
-    const PieceLengths lengths(metric, least_foreshortening);
-    const Lanes least = hn::Set(d, metric.view_cosine() * metric.view_cosine());
-    ProjectedLattice lattice;
-    lines.measured = 0;
-    for (size_t first = 0; first < FaceLattices::kFaces; first += hn::Lanes(d)) {
-        hn::Mask<F> in_view = hn::FirstN(d, hn::Lanes(d));
-        for (int r = 0; r < FaceLattices::kRows; ++r)
-            for (int c = 0; c < FaceLattices::kColumns; ++c)
-                if (FaceLattices::has(r, c))
-                    in_view = hn::And(
-                        in_view, project(lattices.P[r][c], first, camera_from_object, least, lattice[r][c]));
-        lines.measured |= mask_bits(d, in_view) << first;
-        constexpr int kLast = FaceLattices::kColumns - 1;
-        for (int axis = 0; axis < 2; ++axis) {
-            // Columns are fourths of the face, rows eighths.
-            const int across = axis == 0 ? 2 : 1, along = axis == 0 ? 1 : 2;
-            for (int i = 0; i < 3; ++i)
-                add_up(lattice, lengths, axis, 2 * i * across, 2 * along, 2, first, lines.two[axis][i]);
-            for (int i = 0; i < 5; ++i)
-                add_up(lattice, lengths, axis, i * across, along, 4, first, lines.four[axis][i]);
-        }
-        add_up(lattice, lengths, 1, 0, 1, 8, first, lines.eight[0]);
-        add_up(lattice, lengths, 1, kLast, 1, 8, first, lines.eight[1]);
+/// A piece's lengths: as it is seen, seen square on, and in camera space, squared.
+struct LanePiece {
+    Lanes seen, square_on, own2;
+};
+
+/// Measures the faces in lanes `first` on. The order of operations is that of ScreenMetric and LineMeasure:
+/// estimates must not depend on whether a face was measured alone.
+class LaneMeasure {
+  public:
+    LaneMeasure(std::span<const PlacedLattices> keys, const LatticeMeasure& measure, size_t first,
+                LatticeLines& lines)
+        : keys_(keys),
+          first_(first),
+          lines_(lines),
+          trusts_(measure.trusts_foreshortening),
+          pixels_x_(hn::Set(F(), measure.metric.pixels_x())),
+          pixels_y_(hn::Set(F(), measure.metric.pixels_y())),
+          pixels_(hn::Set(F(), measure.metric.pixels())),
+          least_(hn::Set(F(), measure.least_foreshortening)),
+          rate_(hn::Set(F(), measure.pixels_per_segment)),
+          flatness_(hn::Set(F(), measure.flatness)),
+          lens_radius_(hn::Set(F(), measure.lens_radius)),
+          ok_(hn::FirstN(F(), hn::Lanes(F()))) {
+        const float cosine = measure.metric.view_cosine();
+        for (size_t key = 0; key < keys.size(); ++key) project(keys[key], cosine * cosine, lattices_[key]);
     }
-    lines.measured &= lattices.there;
+
+    /// Sets all lines. What no face here asks for is left out: eight pieces where all sides are short,
+    /// foreshortening where all pieces are.
+    HWY_INLINE void run() {
+        const F d;
+        Lanes longest = hn::Zero(d), longest_side = hn::Zero(d);
+        const auto set = [&](const LineNumbers& numbers, LatticeLine& line) HWY_ATTR {
+            const LaneEstimate estimate = length_of(numbers);
+            store(estimate, numbers.pieces, line);
+            // Of a line as uneven as a split would want it at the least.
+            longest =
+                larger(longest, hn::Mul(estimate.longest, hn::Set(d, static_cast<float>(numbers.pieces))));
+            return estimate.sum;
+        };
+        for (int axis = 0; axis < 2; ++axis) {
+            for (int i = 0; i < 3; ++i) set(inner_line(axis, 2 * i, 2), lines_.two[axis][i]);
+            for (int i = 0; i < FaceLattices::kLines; ++i)
+                set(inner_line(axis, i, 4), lines_.lengths.four[axis][i]);
+        }
+        for (int side = 0; side < 4; ++side)
+            longest_side = larger(longest_side, set(side_line(side, 4), lines_.lengths.side_four[side]));
+        const auto some = [&](Lanes length, float segments) HWY_ATTR {
+            return !hn::AllFalse(d, hn::And(hn::Gt(length, hn::Mul(rate_, hn::Set(d, segments))), ok_));
+        };
+        // A little less than what is asked for, as others divide.
+        const bool eight = some(longest_side, 3.99f);
+        for (int side = 0; side < 4 && eight; ++side)
+            set(side_line(side, 8), lines_.lengths.side_eight[side]);
+        if (trusts_ && some(longest, 0.99f)) foreshorten(eight);
+        lines_.measured |= mask_bits(d, ok_) << first_;
+    }
+
+  private:
+    HWY_INLINE void foreshorten(bool eight) {
+        for (int axis = 0; axis < 2; ++axis)
+            for (int i = 0; i < FaceLattices::kLines; ++i)
+                foreshorten(inner_line(axis, i, 4), lines_.seen.four[axis][i]);
+        for (int side = 0; side < 4; ++side) {
+            foreshorten(side_line(side, 4), lines_.seen.side_four[side]);
+            if (eight) foreshorten(side_line(side, 8), lines_.seen.side_eight[side]);
+        }
+    }
+
+    /// As transform_point(), and ScreenMetric's test of what is in view.
+    void project(const PlacedLattices& placed, float least_cosine2, LaneLattice& out) {
+        const F d;
+        const Lanes least = hn::Set(d, least_cosine2);
+        const int points = trusts_ ? FaceLattices::kPoints : FaceLattices::kFirstBeside;
+        for (int i = 0; i < points; ++i) {
+            const FaceLattices::Point& P = placed.lattices->points[i];
+            const LaneVector object = {hn::Load(d, P[0] + first_), hn::Load(d, P[1] + first_),
+                                       hn::Load(d, P[2] + first_)};
+            const LaneVector p = transformed_points(d, placed.camera_from_object, object);
+            hn::Store(p.x, d, out.at[i][0]);
+            hn::Store(p.y, d, out.at[i][1]);
+            hn::Store(p.z, d, out.at[i][2]);
+            if (i >= FaceLattices::kFirstBeside) continue;
+            const Lanes scale = hn::Div(hn::Set(d, 1), p.z);
+            hn::Store(hn::Mul(p.x, scale), d, out.image[i][0]);
+            hn::Store(hn::Mul(p.y, scale), d, out.image[i][1]);
+            ok_ = hn::And(ok_, hn::Gt(p.z, hn::Zero(d)));
+            ok_ = hn::And(ok_, hn::Ge(hn::Mul(p.z, p.z), hn::Mul(least, p.length2())));
+        }
+    }
+
+    HWY_INLINE LanePiece piece(const LaneLattice& lattice, int from, int to) const {
+        const F d;
+        const auto pixels = [&](int axis, Lanes scale) HWY_ATTR {
+            return hn::Mul(
+                hn::Sub(hn::Load(d, lattice.image[to][axis]), hn::Load(d, lattice.image[from][axis])), scale);
+        };
+        const Lanes x = pixels(0, pixels_x_), y = pixels(1, pixels_y_);
+        const LaneVector p = lattice.point(from), q = lattice.point(to);
+        LanePiece piece;
+        piece.seen = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
+        piece.own2 = difference(q, p).length2();
+        const Lanes wide = hn::Mul(hn::Mul(hn::Sqrt(piece.own2), pixels_), hn::Set(d, 2));
+        piece.square_on = hn::Div(wide, hn::Add(p.z, q.z));
+        return piece;
+    }
+
+    /// Lengths as they are seen, or the least share of those seen square on.
+    HWY_INLINE Lanes counted(const LanePiece& piece) const {
+        return larger(piece.seen, hn::Mul(least_, piece.square_on));
+    }
+
+    HWY_INLINE LaneEstimate length_of(const LineNumbers& line) const {
+        LaneEstimate estimate;
+        for (int i = 0; i < line.pieces; ++i) {
+            const int from = line.first + i * line.step;
+            estimate.add(counted(piece(lattices_[0], from, from + line.step)));
+        }
+        return estimate;
+    }
+
+    HWY_INLINE void store(const LaneEstimate& estimate, int pieces, LatticeLine& line) const {
+        const F d;
+        hn::Store(estimate.sum, d, line.sum + first_);
+        hn::Store(estimate.longest, d, line.longest + first_);
+        line.pieces = pieces;
+    }
+
+    /// The length of a vector. Imath takes those of tiny ones another way: faces that have such are lost.
+    HWY_INLINE Lanes length(const LaneVector& v) {
+        const F d;
+        const Lanes length2 = v.length2(), zero = hn::Zero(d);
+        const LaneMask none = hn::And(hn::And(hn::Eq(v.x, zero), hn::Eq(v.y, zero)), hn::Eq(v.z, zero));
+        ok_ = hn::And(ok_, hn::Or(hn::Ge(length2, hn::Set(d, 2 * std::numeric_limits<float>::min())), none));
+        return hn::Sqrt(length2);
+    }
+
+    /// LineMeasure::slant().
+    HWY_INLINE Lanes slant(const LaneVector& p, Lanes distance, const LaneVector& along,
+                           const LaneVector& across) const {
+        const F d;
+        const LaneVector a = cross(p, along), b = cross(p, across);
+        const Lanes lengths = hn::Sqrt(hn::Mul(dot(a, a), dot(b, b)));
+        const Lanes sine = hn::Div(hn::Mul(hn::Abs(dot(p, cross(along, across))), distance), lengths);
+        const Lanes root = hn::Sqrt(hn::Div(sine, hn::Set(d, kSlantedSine)));
+        const Lanes least = hn::Set(d, kLeastSlant), one = hn::Set(d, 1);
+        const Lanes clamped =
+            hn::IfThenElse(hn::Lt(root, least), least, hn::IfThenElse(hn::Lt(one, root), one, root));
+        return hn::IfThenElse(hn::Gt(lengths, hn::Zero(d)), clamped, one);
+    }
+
+    /// How far a line leaves its chord, as bend() of line_measure.cpp.
+    HWY_INLINE Lanes bend(const LaneVector& before, const LaneVector& at, const LaneVector& after) {
+        const LaneVector chord = difference(after, before);
+        const LaneVector second = difference(difference(after, at), difference(at, before));
+        const Lanes chord_length = length(chord);
+        const LaneMask has_chord = hn::Gt(chord_length, hn::Zero(F()));
+        const Lanes over = hn::Div(length(cross(second, chord)), chord_length);
+        if (hn::AllTrue(F(), has_chord)) return over;
+        return hn::IfThenElse(has_chord, over, length(second));
+    }
+
+    /// LineMeasure::foreshortened().
+    HWY_INLINE void foreshorten(const LineNumbers& line, LatticeLine& out) {
+        const F d;
+        constexpr int kMost = LineMeasure::kMostPieces;
+        Lanes seen[kMost], least[kMost], most[kMost], scale[kMost];
+        const Lanes zero = hn::Zero(d);
+        for (int i = 0; i < line.pieces; ++i) least[i] = zero;
+        for (size_t key = 0; key < keys_.size(); ++key) {
+            const LaneLattice& lattice = lattices_[key];
+            const auto number = [&](int i) { return line.first + i * line.step; };
+            for (int i = 0; i < line.pieces; ++i) {
+                const LanePiece of = piece(lattice, number(i), number(i + 1));
+                const LaneVector p = lattice.point(number(i));
+                const LaneVector along = difference(lattice.point(number(i + 1)), p);
+                const LaneVector across = difference(lattice.point(line.beside + i * line.step), p);
+                const Lanes own = length(along), distance = length(p);
+                scale[i] = hn::IfThenElseZero(hn::Gt(own, zero), hn::Div(of.square_on, own));
+                const Lanes count = hn::Mul(of.seen, slant(p, distance, along, across));
+                if (key == 0) seen[i] = count, most[i] = counted(of);
+                const Lanes angle = hn::Div(lens_radius_, larger(distance, lens_radius_));
+                least[i] = larger(larger(least[i], count), hn::Mul(angle, of.square_on));
+            }
+            for (int i = 1; i < line.pieces; ++i) {
+                const Lanes bent = bend(lattice.point(number(i - 1)), lattice.point(number(i)),
+                                        lattice.point(number(i + 1)));
+                const Lanes height =
+                    hn::Mul(hn::Mul(bent, larger(scale[i - 1], scale[i])), hn::Set(d, 0.125f));
+                const Lanes wanted = hn::Mul(rate_, hn::Sqrt(hn::Div(height, flatness_)));
+                least[i - 1] = larger(least[i - 1], wanted), least[i] = larger(least[i], wanted);
+            }
+        }
+        LaneEstimate estimate;
+        for (int i = 0; i < line.pieces; ++i) estimate.add(larger(seen[i], smaller(most[i], least[i])));
+        store(estimate, line.pieces, out);
+        const Lanes a = lattices_[0].point(line.first).z,
+                    b = lattices_[0].point(line.first + line.pieces * line.step).z;
+        const LaneMask deep = hn::Gt(larger(a, b), hn::Mul(hn::Set(d, kDeepestLine), smaller(a, b)));
+        out.deep |= mask_bits(d, deep) << first_;
+    }
+
+    std::span<const PlacedLattices> keys_;
+    size_t first_;
+    LatticeLines& lines_;
+    bool trusts_;
+    Lanes pixels_x_, pixels_y_, pixels_, least_, rate_, flatness_, lens_radius_;
+    LaneMask ok_;  ///< measured as others would
+    LaneLattice lattices_[LineMeasure::kMostKeys];
+};
+
+void measure_lanes(std::span<const PlacedLattices> keys, const LatticeMeasure& measure, LatticeLines& lines) {
+    for (size_t first = 0; first < FaceLattices::kFaces; first += hn::Lanes(F()))
+        LaneMeasure(keys, measure, first, lines).run();
 }
 
 }  // namespace HWY_NAMESPACE
@@ -130,9 +314,15 @@ namespace trapeze {
 
 HWY_EXPORT(measure_lanes);
 
-void measure_lattices(const FaceLattices& lattices, const M44f& camera_from_object,
-                      const ScreenMetric& metric, float least_foreshortening, LatticeLines& lines) {
-    HWY_DYNAMIC_DISPATCH(measure_lanes)(lattices, camera_from_object, metric, least_foreshortening, lines);
+void measure_lattices(std::span<const PlacedLattices> keys, const LatticeMeasure& measure,
+                      LatticeLines& lines) {
+    lines.measured = 0;
+    for (LatticeLine& line : lines.seen.side_four) line.deep = 0;
+    for (LatticeLine& line : lines.seen.side_eight) line.deep = 0;
+    for (auto& axis : lines.seen.four)
+        for (LatticeLine& line : axis) line.deep = 0;
+    HWY_DYNAMIC_DISPATCH(measure_lanes)(keys, measure, lines);
+    for (const PlacedLattices& key : keys) lines.measured &= key.lattices->there;
 }
 
 }  // namespace trapeze

@@ -29,14 +29,10 @@ float bend(const V3f& before, const V3f& at, const V3f& after) {
     return length > 0 ? second.cross(chord).length() / length : second.length();
 }
 
-/// Depths of a line's ends of which the ratio is above this make grids that are in the way of rays which
-/// pass far from them: trees over grids have axis-aligned boxes.
-constexpr float kDeepest = 1.25f;
-
 /// Whether a line in front of the eye leads so far into depth that it has to be split.
 bool is_deep(std::span<const V3f> P) {
     const float a = P.front().z, b = P.back().z;
-    return a > 0 && b > 0 && std::max(a, b) > kDeepest * std::min(a, b);
+    return a > 0 && b > 0 && std::max(a, b) > kDeepestLine * std::min(a, b);
 }
 
 }  // namespace
@@ -84,9 +80,8 @@ void LineMeasure::lengths(std::span<const V3f> from, std::span<const V3f> to,
         counted[i] = std::max(lengths[i].seen, least_ * lengths[i].square_on);
 }
 
-void LineMeasure::of(const FaceLattices& lattices, const M44f& camera_from_object,
-                     LatticeLines& lines) const {
-    measure_lattices(lattices, camera_from_object, metric_, least_, lines);
+void LineMeasure::of(std::span<const PlacedLattices> keys, LatticeLines& lines) const {
+    measure_lattices(keys, {metric_, least_, keys_ > 0, rate_, flatness_, lens_radius_}, lines);
 }
 
 /// Sine of the angle by which rays to a point differ over the lens.
@@ -97,13 +92,12 @@ float LineMeasure::lens_angle(const V3f& p) const {
 /// What counts of a length along a line where the surface's other lines are seen to cross it at a slant:
 /// less, along both, so that micropolygons are slivers of an area nearer to that of a pixel.
 float LineMeasure::slant(const V3f& p, const V3f& along, const V3f& across) const {
-    constexpr float kSlantedSine = 0.5f, kLeast = 0.3f;
     const V3f ray = perspective_ ? p : V3f(0, 0, 1);
     const V3f a = ray.cross(along), b = ray.cross(across);  // as seen, but turned
     const float lengths = std::sqrt(a.dot(a) * b.dot(b));
     if (!(lengths > 0)) return 1;
     const float sine = std::abs(ray.dot(along.cross(across))) * ray.length() / lengths;
-    return std::clamp(std::sqrt(sine / kSlantedSine), kLeast, 1.0f);
+    return std::clamp(std::sqrt(sine / kSlantedSine), kLeastSlant, 1.0f);
 }
 
 /// For each piece the most that any key, any point of the lens or the curve's bend wants of it, but not more

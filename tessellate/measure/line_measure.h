@@ -48,7 +48,14 @@ struct RateEstimate {
     int clamped_segments(const EdgeRate& rate) const;  ///< 1..16
 };
 
-struct FaceLattices;
+/// Depths of a line's ends of which the ratio is above this make grids that are in the way of rays which
+/// pass far from them: trees over grids have axis-aligned boxes.
+inline constexpr float kDeepestLine = 1.25f;
+/// Lines that are seen to cross the surface's others at less than this sine count less, but not less than so
+/// much of their length.
+inline constexpr float kSlantedSine = 0.5f, kLeastSlant = 0.3f;
+
+struct PlacedLattices;
 struct LatticeLines;
 
 /// The measure of one primitive's lines under one camera. Immutable: threads share it.
@@ -70,10 +77,11 @@ class LineMeasure {
     /// What pieces count of which nothing else is known, from[i] to to[i], at most kMostLengths.
     void lengths(std::span<const V3f> from, std::span<const V3f> to, std::span<float> counted) const;
 
-    /// Whether of(P) alone decides, and of(lattices) has the same for many faces.
-    bool measures_lattices() const { return keys_ == 0 && metric_.is_perspective(); }
-    /// Lines of many faces at once, where measures_lattices().
-    void of(const FaceLattices& lattices, const M44f& camera_from_object, LatticeLines& lines) const;
+    /// Whether of(lattices) has the same for many faces as of(P) and foreshortened(P).
+    bool measures_lattices() const { return metric_.is_perspective(); }
+    /// Lines of many faces at once, where measures_lattices(): from their lattices at the first key, or where
+    /// keys() > 0 at those.
+    void of(std::span<const PlacedLattices> keys, LatticeLines& lines) const;
 
     /// Whether a line of this estimate may want fewer segments: by foreshortened().
     bool may_want_less(const RateEstimate& estimate) const {

@@ -43,7 +43,7 @@ class CurvesSurface : public TopologySurface<CurvesSurface> {
                             ShadingGrid& grid) const override;
     Box3f bound(int face, V2f lo, V2f hi, int key) const override;
     bool has_lattices() const override { return rows_come_together(); }
-    void lattices(int first, int count, FaceLattices& lattices) const override;
+    void lattices(int first, int count, int key, bool beside, FaceLattices& lattices) const override;
 
   private:
     friend class CurveComponents;
@@ -259,8 +259,8 @@ void CurvesSurface::evaluate(int face, std::span<const V2f> uv, int key, Surface
     }
 }
 
-/// Faces with as many segments as the first one.
-void CurvesSurface::lattices(int first, int count, FaceLattices& lattices) const {
+/// Faces with as many segments as the first one. Foreshortening is not looked at.
+void CurvesSurface::lattices(int first, int count, int key, bool, FaceLattices& lattices) const {
     std::array<RibbonLanes, kSmoothSegmentsPerFace> segments;
     const int of_first = topology_.strip(first).count;
     uint32_t faces = 0;
@@ -271,7 +271,7 @@ void CurvesSurface::lattices(int first, int count, FaceLattices& lattices) const
         if (strip.count != of_first) continue;
         if (i < count) faces |= 1u << i;
         for (int number = 0; number < of_first; ++number) {
-            const RibbonSegment s = segment(strip.curve, strip.first + number, 0);
+            const RibbonSegment s = segment(strip.curve, strip.first + number, key);
             RibbonLanes& lanes = segments[number];
             cubic_width = s.width.cubic;
             for (int p = 0; p < 4; ++p) {
@@ -280,7 +280,7 @@ void CurvesSurface::lattices(int first, int count, FaceLattices& lattices) const
             }
         }
     }
-    facing_lattices({segments.data(), static_cast<size_t>(of_first)}, cubic_width, facing_[0], faces,
+    facing_lattices({segments.data(), static_cast<size_t>(of_first)}, cubic_width, facing_[key], faces,
                     lattices);
 }
 

@@ -10,42 +10,51 @@
 namespace trapeze {
 namespace {
 
-/// Points a block: enough for vectors of any machine. Loops over lanes are what compilers vectorise.
-constexpr size_t kLanes = 16;
-using Lanes = std::array<float, kLanes>;
+/// Points at once: loops over lanes are what compilers vectorise.
+template <size_t n>
+using Lanes = std::array<float, n>;
 
-/// Parameters of up to kLanes points, `count` of which count, the first of them number `first`.
+/// Parameters of up to n points, `count` of which count, the first of them number `first`.
+template <size_t n>
 struct PointBlock {
-    Lanes u, v;
+    Lanes<n> u, v;
     size_t first, count;
+
+    PointBlock(std::span<const V2f> uv, size_t first_point)
+        : first(first_point), count(std::min(n, uv.size() - first_point)) {
+        for (size_t l = 0; l < n; ++l) {
+            const V2f& at = uv[first + std::min(l, count - 1)];
+            u[l] = at.x, v[l] = at.y;
+        }
+    }
 };
 
-/// Calls f for blocks of kLanes points; the last one is padded with the last point.
+/// Calls f for blocks of sixteen points; the last one has as few as hold the rest (neighbours of grids ask
+/// for a point or two), and is padded with the last point.
 template <class F>
 void for_blocks(std::span<const V2f> uv, F&& f) {
-    PointBlock block;
-    for (block.first = 0; block.first < uv.size(); block.first += kLanes) {
-        block.count = std::min(kLanes, uv.size() - block.first);
-        for (size_t l = 0; l < kLanes; ++l) {
-            const V2f& at = uv[block.first + std::min(l, block.count - 1)];
-            block.u[l] = at.x, block.v[l] = at.y;
-        }
-        f(block);
-    }
+    size_t first = 0;
+    for (; first + 8 < uv.size(); first += 16) f(PointBlock<16>(uv, first));
+    if (first + 4 < uv.size())
+        f(PointBlock<8>(uv, first));
+    else if (first < uv.size())
+        f(PointBlock<4>(uv, first));
 }
 
 /// Writes a component of a block's points; padding is dropped.
-void store(const PointBlock& block, const Lanes& values, int component, const ValueSink& sink) {
+template <size_t n>
+void store(const PointBlock<n>& block, const Lanes<n>& values, int component, const ValueSink& sink) {
     for (size_t l = 0; l < block.count; ++l) sink.at(block.first + l, component) = values[l];
 }
 
 /// Weights of the uniform cubic B-spline's four control points, and their derivatives.
+template <size_t n>
 struct CubicWeights {
-    Lanes w[4], d[4];
+    Lanes<n> w[4], d[4];
 
-    explicit CubicWeights(const Lanes& t) {
+    explicit CubicWeights(const Lanes<n>& t) {
         constexpr float sixth = 1.0f / 6;
-        for (size_t l = 0; l < kLanes; ++l) {
+        for (size_t l = 0; l < n; ++l) {
             const float x = t[l], y = 1 - x, xx = x * x, yy = y * y;
             w[0][l] = sixth * (yy * y);
             w[1][l] = sixth * (4 - 3 * (xx * (1 + y)));
@@ -61,16 +70,71 @@ struct CubicWeights {
 
 /// The sum of four products in each lane. Both forms add in the same order, and so round alike; in the second
 /// one all lanes share the values.
-inline void combine(const Lanes (&w)[4], const Lanes (&c)[4], Lanes& sum) {
-    for (size_t l = 0; l < kLanes; ++l)
+template <size_t n>
+inline void combine(const Lanes<n> (&w)[4], const Lanes<n> (&c)[4], Lanes<n>& sum) {
+    for (size_t l = 0; l < n; ++l)
         sum[l] = (w[0][l] * c[0][l] + w[1][l] * c[1][l]) + (w[2][l] * c[2][l] + w[3][l] * c[3][l]);
 }
 
 /// Sums in pairs: two chains of half the length, in an order that all callers share.
-inline void combine(const Lanes (&w)[4], const float* c, int stride, Lanes& sum) {
+template <size_t n>
+inline void combine(const Lanes<n> (&w)[4], const float* c, int stride, Lanes<n>& sum) {
     const float c0 = c[0], c1 = c[stride], c2 = c[2 * stride], c3 = c[3 * stride];
-    for (size_t l = 0; l < kLanes; ++l)
-        sum[l] = (w[0][l] * c0 + w[1][l] * c1) + (w[2][l] * c2 + w[3][l] * c3);
+    for (size_t l = 0; l < n; ++l) sum[l] = (w[0][l] * c0 + w[1][l] * c1) + (w[2][l] * c2 + w[3][l] * c3);
+}
+
+/// Bernstein polynomials of a degree, and their derivatives: those of BezierPatch.
+template <int degree, size_t n>
+struct BezierWeights {
+    Lanes<n> w[degree + 1], d[degree + 1];
+
+    explicit BezierWeights(const Lanes<n>& at) {
+        for (size_t l = 0; l < n; ++l) {
+            const float t = at[l], s = 1 - t;
+            if constexpr (degree == 1) {
+                w[0][l] = s, w[1][l] = t, d[0][l] = -1, d[1][l] = 1;
+            } else {
+                const float ss = s * s, st = s * t, tt = t * t;
+                w[0][l] = ss * s, w[1][l] = 3 * ss * t, w[2][l] = 3 * s * tt, w[3][l] = tt * t;
+                d[0][l] = -3 * ss, d[1][l] = 3 * (ss - 2 * st), d[2][l] = 3 * (2 * st - tt), d[3][l] = 3 * tt;
+            }
+        }
+    }
+};
+
+/// Sums one after another from 0, as BezierPatch::at() does.
+template <size_t m, size_t n>
+inline void add_up(const Lanes<n> (&w)[m], const Lanes<n> (&c)[m], Lanes<n>& sum) {
+    sum = {};
+    for (size_t i = 0; i < m; ++i)
+        for (size_t l = 0; l < n; ++l) sum[l] += c[i][l] * w[i][l];
+}
+template <size_t m, size_t n>
+inline void add_up(const Lanes<n> (&w)[m], const float* c, int stride, Lanes<n>& sum) {
+    sum = {};
+    for (size_t i = 0; i < m; ++i)
+        for (size_t l = 0; l < n; ++l) sum[l] += c[i * stride] * w[i][l];
+}
+
+/// A block of points of a Bezier patch; degree is the patch's.
+template <int degree, size_t n>
+void evaluate_block(const BezierPatch& patch, const PointBlock<n>& b, const ValueSink& value,
+                    const ValueSink& du, const ValueSink& dv) {
+    constexpr int kFloats = std::tuple_size_v<Control>;
+    const BezierWeights<degree, n> u(b.u), v(b.v);
+    for (int k = 0; k < 3; ++k) {
+        const auto control = [&](int row) { return &patch.p[static_cast<size_t>(row) * 4][0] + k; };
+        Lanes<n> row[degree + 1], sum;
+        for (int j = 0; j <= degree; ++j) add_up(u.w, control(j), kFloats, row[j]);
+        add_up(v.w, row, sum);
+        store(b, sum, k, value);
+        if (!du) continue;
+        add_up(v.d, row, sum);
+        store(b, sum, k, dv);
+        for (int j = 0; j <= degree; ++j) add_up(u.d, control(j), kFloats, row[j]);
+        add_up(v.w, row, sum);
+        store(b, sum, k, du);
+    }
 }
 
 /// Cubic Bezier control points of the part [a, b] of a uniform B-spline segment, by its blossom: the B-spline
@@ -118,19 +182,19 @@ void piece_corners(const FacePiece& piece, const float* values, int size, float*
 /// Both weights of a direction are written out, and not one value and a difference: corners come out exact.
 void evaluate_bilinear(const float* corners, int size, std::span<const V2f> uv, ValueSink value, ValueSink du,
                        ValueSink dv) {
-    for_blocks(uv, [&](const PointBlock& b) {
+    for_blocks(uv, [&]<size_t n>(const PointBlock<n>& b) {
         for (int k = 0; k < size; ++k) {
             const float c0 = corners[k], c1 = corners[size + k], c2 = corners[2 * size + k],
                         c3 = corners[3 * size + k];
-            Lanes sum;
-            for (size_t l = 0; l < kLanes; ++l)
+            Lanes<n> sum;
+            for (size_t l = 0; l < n; ++l)
                 sum[l] = (1 - b.v[l]) * ((1 - b.u[l]) * c0 + b.u[l] * c1) +
                          b.v[l] * ((1 - b.u[l]) * c3 + b.u[l] * c2);
             if (value) store(b, sum, k, value);
             if (!du) continue;
-            for (size_t l = 0; l < kLanes; ++l) sum[l] = (1 - b.v[l]) * (c1 - c0) + b.v[l] * (c2 - c3);
+            for (size_t l = 0; l < n; ++l) sum[l] = (1 - b.v[l]) * (c1 - c0) + b.v[l] * (c2 - c3);
             store(b, sum, k, du);
-            for (size_t l = 0; l < kLanes; ++l) sum[l] = (1 - b.u[l]) * (c3 - c0) + b.u[l] * (c2 - c1);
+            for (size_t l = 0; l < n; ++l) sum[l] = (1 - b.u[l]) * (c3 - c0) + b.u[l] * (c2 - c1);
             store(b, sum, k, dv);
         }
     });
@@ -161,12 +225,12 @@ void values_on_piece(const FacePiece& piece, const float* corners, std::span<con
 /// Rows first, then the column of their results: the derivative by v needs the rows only once.
 void evaluate_bspline(const float* controls, int size, std::span<const V2f> uv, ValueSink value, ValueSink du,
                       ValueSink dv) {
-    for_blocks(uv, [&](const PointBlock& b) {
-        const CubicWeights u(b.u), v(b.v);
+    for_blocks(uv, [&]<size_t n>(const PointBlock<n>& b) {
+        const CubicWeights<n> u(b.u), v(b.v);
         for (int k = 0; k < size; ++k) {
             // Rows along u first, then the column of rows along v, with the weights of values or of
             // derivatives.
-            Lanes row[4], sum;
+            Lanes<n> row[4], sum;
             for (int j = 0; j < 4; ++j) combine(u.w, controls + j * 4 * size + k, size, row[j]);
             combine(v.w, row, sum);
             if (value) store(b, sum, k, value);
@@ -177,6 +241,16 @@ void evaluate_bspline(const float* controls, int size, std::span<const V2f> uv, 
             combine(v.w, row, sum);
             store(b, sum, k, du);
         }
+    });
+}
+
+void evaluate_bezier(const BezierPatch& patch, std::span<const V2f> uv, ValueSink value, ValueSink du,
+                     ValueSink dv) {
+    for_blocks(uv, [&]<size_t n>(const PointBlock<n>& b) {
+        if (patch.degree == 1)
+            evaluate_block<1>(patch, b, value, du, dv);
+        else
+            evaluate_block<3>(patch, b, value, du, dv);
     });
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/math.h"
+#include "tessellate/surfaces/bezier.h"
 #include "tessellate/topology/mesh_topology.h"
 
 namespace trapeze {
@@ -47,6 +48,11 @@ void values_on_piece(const FacePiece& piece, const float* corners, std::span<con
 /// Evaluates a uniform bicubic B-spline patch with control points j * 4 + i, of `size` floats each.
 void evaluate_bspline(const float* controls, int size, std::span<const V2f> uv, ValueSink value, ValueSink du,
                       ValueSink dv);
+
+/// Evaluates x, y and z of a patch that is not rational: BezierPatch::at() of each point, the same bits. Both
+/// derivatives or none.
+void evaluate_bezier(const BezierPatch& patch, std::span<const V2f> uv, ValueSink value, ValueSink du,
+                     ValueSink dv);
 
 /// Boxes of rectangles of such faces (size 3), that hold every evaluated point: grown by its rounding.
 Box3f bilinear_bound(const float* corners, V2f lo, V2f hi);

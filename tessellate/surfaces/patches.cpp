@@ -1,9 +1,12 @@
 /// Patch and PatchMesh (RISpec 5.2): a face for each patch, evaluated in Bezier form.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 
 #include "tessellate/surfaces/between.h"
-#include "tessellate/surfaces/bezier.h"
+#include "tessellate/surfaces/face_evaluation.h"
+#include "tessellate/surfaces/net_lattices.h"
 #include "tessellate/surfaces/surface_variables.h"
 #include "tessellate/topology/face_grid.h"
 #include "tessellate/topology/topology_surface.h"
@@ -17,8 +20,17 @@ struct PatchPoints {
     bool rational = false;
 };
 
+/// What a thread keeps of the faces that it evaluated last: a grid's borders lie on its neighbours, too.
+struct PatchScratch : SurfaceScratch {
+    struct Face {
+        int face = -1, shape_key = 0;
+        BezierPatch patch;
+    };
+    std::array<Face, 32> faces;  ///< at face % 32
+};
+
 /// A patch mesh; threads share it. Control points stay in the primitive's arrays and are taken to Bezier form
-/// for every batch of points.
+/// when a face is asked for.
 class PatchSurface : public TopologySurface<PatchSurface> {
   public:
     PatchSurface(const Primitive& primitive, std::vector<PatchPoints> points);
@@ -28,11 +40,14 @@ class PatchSurface : public TopologySurface<PatchSurface> {
         return {static_cast<float>(faces_.columns), static_cast<float>(faces_.rows)};
     }
 
+    std::unique_ptr<SurfaceScratch> make_scratch() const override { return std::make_unique<PatchScratch>(); }
     void evaluate(int face, std::span<const V2f> uv, int shape_key, SurfaceScratch* scratch, std::span<V3f> P,
                   std::span<V3f> dPdu, std::span<V3f> dPdv) const override;
     bool evaluate_variables(int face, std::span<const V2f> uv, SurfaceScratch* scratch,
                             ShadingGrid& grid) const override;
     Box3f bound(int face, V2f lo, V2f hi, int shape_key) const override;
+    bool has_lattices() const override { return !points_.front().rational; }
+    void lattices(int first, int count, int shape_key, bool beside, FaceLattices& lattices) const override;
 
     /// One to four floats of each control point, starting at values, `stride` floats apart.
     BezierPatch net(int face, const float* values, int count, size_t stride) const;
@@ -45,6 +60,8 @@ class PatchSurface : public TopologySurface<PatchSurface> {
   private:
     /// A face's control points in Bezier form; w is the fourth component of rational ones.
     BezierPatch positions(int face, int shape_key) const;
+    /// The same; valid until another face takes its place.
+    const BezierPatch& cached_positions(int face, int shape_key, PatchScratch& scratch) const;
     bool meets(int face, int next, bool along_u) const;
     void find_tears(bool along_u);
 
@@ -133,30 +150,52 @@ BezierPatch PatchSurface::controls(int face, const float* values, int count, siz
     return patch;
 }
 
-/// Made anew for each batch: a conversion of sixteen points costs less than keeping all of them.
 BezierPatch PatchSurface::positions(int face, int shape_key) const {
     const int floats = points_[shape_key].rational ? 4 : 3;
     return net(face, points_[shape_key].values, floats, floats);
 }
 
+/// Direct-mapped by the face's number.
+const BezierPatch& PatchSurface::cached_positions(int face, int shape_key, PatchScratch& scratch) const {
+    PatchScratch::Face& held = scratch.faces[static_cast<size_t>(face) % scratch.faces.size()];
+    if (held.face != face || held.shape_key != shape_key)
+        held = {face, shape_key, positions(face, shape_key)};
+    return held.patch;
+}
+
 /// Rational patches are evaluated with their weights and divided last (RISpec 5.2, "Pw").
-void PatchSurface::evaluate(int face, std::span<const V2f> uv, int shape_key, SurfaceScratch*,
+void PatchSurface::evaluate(int face, std::span<const V2f> uv, int shape_key, SurfaceScratch* scratch,
                             std::span<V3f> P, std::span<V3f> dPdu, std::span<V3f> dPdv) const {
-    const BezierPatch patch = positions(face, shape_key);
-    const bool rational = points_[shape_key].rational;
-    const bool derivatives = !dPdu.empty() || !dPdv.empty();
+    BezierPatch own;
+    if (!scratch) own = positions(face, shape_key);
+    const BezierPatch& patch =
+        scratch ? cached_positions(face, shape_key, static_cast<PatchScratch&>(*scratch)) : own;
+    if (!points_[shape_key].rational)
+        return evaluate_bezier(patch, uv, sink_of(P), sink_of(dPdu), sink_of(dPdv));
     for (size_t i = 0; i < uv.size(); ++i) {
-        Control value, by_u{}, by_v{};
-        if (derivatives)
-            patch.at(uv[i], &value, &by_u, &by_v);
-        else
-            value = patch.at(uv[i]);
-        const float scale = rational ? 1 / value[3] : 1.0f;
-        P[i] = rational ? xyz(value) * scale : xyz(value);
-        // By the quotient rule; w and its derivatives are 0 apart from rational patches.
+        Control value, by_u, by_v;
+        patch.at(uv[i], &value, &by_u, &by_v);
+        const float scale = 1 / value[3];
+        P[i] = xyz(value) * scale;
+        // By the quotient rule.
         if (!dPdu.empty()) dPdu[i] = (xyz(by_u) - P[i] * by_u[3]) * scale;
         if (!dPdv.empty()) dPdv[i] = (xyz(by_v) - P[i] * by_v[3]) * scale;
     }
+}
+
+/// All faces but rational ones, whose sums are divided.
+void PatchSurface::lattices(int first, int count, int shape_key, bool beside, FaceLattices& lattices) const {
+    lattices.runs = FaceRuns::Upwards;
+    lattices.there = 0;
+    if (points_[shape_key].rational) return;
+    NetLanes nets;
+    for (int i = 0; i < FaceLattices::kFaces; ++i) {
+        // Lanes without a face are as the last.
+        const BezierPatch patch = positions(first + std::min(i, count - 1), shape_key);
+        for (int p = 0; p < 16; ++p) nets.set(p, i, patch.p[p].data());
+    }
+    net_lattices(nets, mesh_.bicubic ? NetForm::Bezier : NetForm::BezierLines, beside, lattices);
+    lattices.there = (1u << count) - 1;
 }
 
 /// Values of variables on one face of a mesh.

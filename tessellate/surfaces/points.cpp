@@ -42,13 +42,18 @@ DiskPoint disk_point(V2f uv) {
     return {exchanged(at), exchanged(by_other), exchanged(by_r)};
 }
 
-/// disk_point() of a lattice's points.
+/// The parameters of a lattice's points that are not beside others, and disk_point() of them.
 struct DiskLattice {
-    V2f at[FaceLattices::kRows][FaceLattices::kColumns];
+    V2f uv[FaceLattices::kFirstBeside], at[FaceLattices::kFirstBeside];
 
     DiskLattice() {
-        for (int r = 0; r < FaceLattices::kRows; ++r)
-            for (int c = 0; c < FaceLattices::kColumns; ++c) at[r][c] = disk_point(FaceLattices::uv(r, c)).at;
+        for (int r = 0; r < FaceLattices::kLines; ++r)
+            for (int c = 0; c < FaceLattices::kLines; ++c)
+                uv[FaceLattices::inner(r, c)] = FaceLattices::inner_uv(r, c);
+        for (int side = 0; side < 4; ++side)
+            for (int i = 0; i < FaceLattices::kSidePoints; ++i)
+                uv[FaceLattices::side(side, i)] = FaceLattices::side_uv(FaceRuns::Upwards, side, i);
+        for (int i = 0; i < FaceLattices::kFirstBeside; ++i) at[i] = disk_point(uv[i]).at;
     }
 };
 
@@ -115,7 +120,7 @@ class PointsSurface : public Surface {
                             ShadingGrid& grid) const override;
     Box3f bound(int face, V2f lo, V2f hi, int key) const override;
     bool has_lattices() const override { return true; }
-    void lattices(int first, int count, FaceLattices& lattices) const override;
+    void lattices(int first, int count, int key, bool beside, FaceLattices& lattices) const override;
 
   private:
     static constexpr V2f kCorners[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -243,27 +248,26 @@ void PointsSurface::evaluate(int face, std::span<const V2f> uv, int key, Surface
     }
 }
 
-/// The points of the unit disk are the same for all faces, and made once.
-void PointsSurface::lattices(int first, int count, FaceLattices& lattices) const {
+/// The points of the unit disk are the same for all faces, and made once. Foreshortening is not looked at.
+void PointsSurface::lattices(int first, int count, int key, bool, FaceLattices& lattices) const {
     constexpr int kFaces = FaceLattices::kFaces;
     std::array<float, kFaces> centre[3], x[3], y[3];
     std::array<bool, kFaces> rectangle;
     for (int i = 0; i < kFaces; ++i) {
-        const Disk d = disk(first + std::min(i, count - 1), 0);
+        const Disk d = disk(first + std::min(i, count - 1), key);
         for (int k = 0; k < 3; ++k) centre[k][i] = d.centre[k], x[k][i] = d.x[k], y[k][i] = d.y[k];
         rectangle[i] = d.rectangle;
     }
-    static const DiskLattice on_disks;
-    for (int r = 0; r < FaceLattices::kRows; ++r)
-        for (int c = 0; c < FaceLattices::kColumns; ++c) {
-            if (!FaceLattices::has(r, c)) continue;
-            const V2f on_disk = on_disks.at[r][c], on_rectangle = Disk::on_rectangle(FaceLattices::uv(r, c));
-            for (int k = 0; k < 3; ++k)
-                for (int i = 0; i < kFaces; ++i) {
-                    const V2f& at = rectangle[i] ? on_rectangle : on_disk;
-                    lattices.P[r][c][k][i] = centre[k][i] + x[k][i] * at.x + y[k][i] * at.y;
-                }
-        }
+    static const DiskLattice disks;
+    for (int p = 0; p < FaceLattices::kFirstBeside; ++p) {
+        const V2f on_disk = disks.at[p], on_rectangle = Disk::on_rectangle(disks.uv[p]);
+        for (int k = 0; k < 3; ++k)
+            for (int i = 0; i < kFaces; ++i) {
+                const V2f& at = rectangle[i] ? on_rectangle : on_disk;
+                lattices.points[p][k][i] = centre[k][i] + x[k][i] * at.x + y[k][i] * at.y;
+            }
+    }
+    lattices.runs = FaceRuns::Upwards, lattices.bounded = false;
     lattices.there = (1u << count) - 1;
 }
 

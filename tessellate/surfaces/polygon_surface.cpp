@@ -5,6 +5,7 @@
 
 #include "core/polygon_lean.h"
 #include "tessellate/surfaces/face_evaluation.h"
+#include "tessellate/surfaces/net_lattices.h"
 #include "tessellate/surfaces/surface_variables.h"
 #include "tessellate/topology/mesh_topology.h"
 #include "tessellate/topology/polygon_faces.h"
@@ -46,6 +47,8 @@ class PolygonSurface : public TopologySurface<PolygonSurface> {
     bool evaluate_variables(int face, std::span<const V2f> uv, SurfaceScratch* scratch,
                             ShadingGrid& grid) const override;
     Box3f bound(int face, V2f lo, V2f hi, int shape_key) const override;
+    bool has_lattices() const override { return true; }
+    void lattices(int first, int count, int shape_key, bool beside, FaceLattices& lattices) const override;
 
   private:
     class Values;
@@ -89,6 +92,26 @@ Box3f PolygonSurface::bound(int face, V2f lo, V2f hi, int shape_key) const {
     float corners[12];
     piece_corners(piece, corner_positions(piece, shape_key).data(), 3, corners);
     return bilinear_bound(corners, lo, hi);
+}
+
+/// Faces that are cut, or those that are not, as the first one is.
+void PolygonSurface::lattices(int first, int count, int shape_key, bool beside,
+                              FaceLattices& lattices) const {
+    const bool cut = topology_.piece(first).cut;
+    lattices.runs = cut ? FaceRuns::Piece : FaceRuns::Round;
+    lattices.there = 0;
+    NetLanes nets;
+    float corners[12];
+    for (int i = 0; i < FaceLattices::kFaces; ++i) {
+        // Lanes without a face are as the one before.
+        const FacePiece piece = topology_.piece(first + std::min(i, count - 1));
+        if (piece.cut == cut) {
+            piece_corners(piece, corner_positions(piece, shape_key).data(), 3, corners);
+            lattices.there |= i < count ? 1u << i : 0u;
+        }
+        for (int p = 0; p < 4; ++p) nets.set(p, i, corners + 3 * p);
+    }
+    net_lattices(nets, NetForm::Corners, beside, lattices);
 }
 
 /// Values of variables on one face, by the class that says which of the primitive's numbers are its corners'.

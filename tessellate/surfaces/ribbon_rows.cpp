@@ -168,30 +168,46 @@ HWY_INLINE LaneSegment loaded(const RibbonLanes& lanes, bool cubic_width, size_t
     return segment;
 }
 
+/// Points of one row, from lane `first` on: `count` of them evenly along u.
+HWY_INLINE void store_row(const LaneRow& row, int count, size_t first, FaceLattices::Point* points,
+                          int step = 1) {
+    const F d;
+    for (int i = 0; i < count; ++i) {
+        const Lanes u = hn::Set(d, static_cast<float>(i) / static_cast<float>(count - 1) - 0.5f);
+        FaceLattices::Point& P = points[i * step];
+        hn::Store(hn::Add(row.centre.x, hn::Mul(row.span.x, u)), d, P[0] + first);
+        hn::Store(hn::Add(row.centre.y, hn::Mul(row.span.y, u)), d, P[1] + first);
+        hn::Store(hn::Add(row.centre.z, hn::Mul(row.span.z, u)), d, P[2] + first);
+    }
+}
+
 /// Lanes are faces here: the same place of each of sixteen ribbons is made at once.
 void lattices_of_segments(std::span<const RibbonLanes> segments, bool cubic_width, const CameraFacing& facing,
                           uint32_t faces, FaceLattices& lattices) {
     const F d;
+    using Lattice = FaceLattices;
+    constexpr int kLastRow = Lattice::kSidePoints - 1;
     const float count = static_cast<float>(segments.size());
     const int last = static_cast<int>(segments.size()) - 1;
     uint32_t ok = faces;
-    for (int r = 0; r < FaceLattices::kRows; ++r) {
-        const float along = static_cast<float>(r) / 8 * count;
+    for (int r = 0; r <= kLastRow; ++r) {
+        const float along = static_cast<float>(r) / kLastRow * count;
         const int number = std::min(static_cast<int>(along), last);
         const Lanes t = hn::Set(d, along - static_cast<float>(number));
-        for (size_t first = 0; first < FaceLattices::kFaces; first += hn::Lanes(d)) {
+        for (size_t first = 0; first < Lattice::kFaces; first += hn::Lanes(d)) {
             const LaneRow row = row_at(loaded(segments[number], cubic_width, first), facing, t);
             ok &= mask_bits(d, row.ok) << first | ~(((1u << hn::Lanes(d)) - 1) << first);
-            for (int c = 0; c < FaceLattices::kColumns; ++c) {
-                if (!FaceLattices::has(r, c)) continue;
-                const Lanes u = hn::Set(d, static_cast<float>(c) / 4 - 0.5f);
-                float(&P)[3][FaceLattices::kFaces] = lattices.P[r][c];
-                hn::Store(hn::Add(row.centre.x, hn::Mul(row.span.x, u)), d, P[0] + first);
-                hn::Store(hn::Add(row.centre.y, hn::Mul(row.span.y, u)), d, P[1] + first);
-                hn::Store(hn::Add(row.centre.z, hn::Mul(row.span.z, u)), d, P[2] + first);
-            }
+            if (r % 2 == 0)
+                store_row(row, Lattice::kLines, first, &lattices.points[Lattice::inner(r / 2, 0)]);
+            // The ends of the row lie on the sides u = 0 and u = 1.
+            store_row(row, 2, first, &lattices.points[Lattice::side(kLeft, r)],
+                      Lattice::side(kRight, 0) - Lattice::side(kLeft, 0));
+            if (r == 0 || r == kLastRow)
+                store_row(row, Lattice::kSidePoints, first,
+                          &lattices.points[Lattice::side(r == 0 ? kBottom : kTop, 0)]);
         }
     }
+    lattices.runs = FaceRuns::Upwards, lattices.bounded = false;
     lattices.there = ok;
 }
 

@@ -165,7 +165,15 @@ Box3f PlacedSurface::bound(int face, V2f lo, V2f hi, int key) const {
         if (next.isEmpty()) return {};
         box.extendBy(next);
     }
-    return transformed(camera_from_object_[key], box);
+    return bound(box, key);
+}
+
+Box3f PlacedSurface::bound(const Box3f& object_box, int key) const {
+    return transformed(camera_from_object_[key], object_box);
+}
+
+bool PlacedSurface::is_rigid() const {
+    return key_count() == 1 || (!surface_->has_motion_keys() && primitive_->shape_keys.size() == 1);
 }
 
 }  // namespace trapeze

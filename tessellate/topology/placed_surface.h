@@ -65,12 +65,16 @@ class PlacedSurface {
 
     /// Camera-space box of a rectangle of a face at a key, or an empty one when the surface knows none.
     Box3f bound(int face, V2f lo, V2f hi, int key) const;
+    /// The same from an object-space box at that key.
+    Box3f bound(const Box3f& object_box, int key) const;
+    /// Whether all motion keys have one shape.
+    bool is_rigid() const;
 
-  private:
     /// The shape keys that the surface is asked for at a motion key; the motion key itself where
     /// has_motion_keys().
     ShapeMix mix_of(int key) const;
 
+  private:
     const Surface* surface_;
     const Primitive* primitive_;
     std::vector<M44f> camera_from_object_;

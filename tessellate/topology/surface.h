@@ -105,9 +105,11 @@ class Surface {
 
     /// Whether lattices() makes points of many faces for less than evaluate() does.
     virtual bool has_lattices() const { return false; }
-    /// The points of faces first .. first + count - 1, at most FaceLattices::kFaces, at shape key 0, the same
-    /// bits as evaluate() has; of all or some of them.
-    virtual void lattices(int /*first*/, int /*count*/, FaceLattices& /*lattices*/) const {}
+    /// The points of faces first .. first + count - 1, at most FaceLattices::kFaces, at a shape key, the same
+    /// bits as evaluate() has; of all or some of them, whose edges run alike. `beside`: those beside edges,
+    /// too.
+    virtual void lattices(int /*first*/, int /*count*/, int /*shape_key*/, bool /*beside*/,
+                          FaceLattices& /*lattices*/) const {}
 
     /// How many times a face the unit of grid.u and grid.v spans: 1 unless they run over a whole mesh.
     /// Derivatives in the grid are by grid.u and grid.v, those of evaluate() by the face's.

@@ -1,5 +1,9 @@
 #include "tessellate/surfaces/subdivision/subdivision_surface.h"
 
+#include <algorithm>
+
+#include "tessellate/surfaces/net_lattices.h"
+
 namespace trapeze {
 namespace {
 
@@ -18,6 +22,7 @@ SubdivisionSurface::SubdivisionSurface(const Primitive& primitive,
                                        std::unique_ptr<const OpenSubdiv::Far::TopologyRefiner> refiner,
                                        std::vector<FaceVaryingChannel> channels)
     : primitive_(primitive),
+      scheme_(std::get<SubdivisionMesh>(primitive.shape().topology).scheme),
       refiner_(std::move(refiner)),
       factory_(*refiner_, factory_options()),
       channels_(std::move(channels)) {
@@ -31,7 +36,7 @@ SubdivisionSurface::SubdivisionSurface(const Primitive& primitive,
         has_limit.push_back(kinds_.back() == FaceKind::Limit);
     }
     // Triangles of Loop's scheme are all cut into three squares; of the others only quads stay whole.
-    const int whole_size = mesh.scheme == SubdivisionMesh::Scheme::Loop ? 0 : 4;
+    const int whole_size = scheme_ == SubdivisionMesh::Scheme::Loop ? 0 : 4;
     topology_ = std::make_unique<MeshTopology>(mesh.vertices_per_face, mesh.vertices, mesh.vertex_count,
                                                whole_size, has_limit);
 }
@@ -104,6 +109,49 @@ void SubdivisionSurface::evaluate(int face, std::span<const V2f> uv, int shape_k
     // Once a face and shape key, however many batches of its points are wanted.
     if (points.empty()) cached.patch.gather(positions_[shape_key], 3, points);
     cached.patch.evaluate(points, 3, piece, uv, sink_of(P), sink_of(dPdu), sink_of(dPdv));
+}
+
+/// Whether a face has as many neighbours as a regular quad: what the library is not asked for in vain.
+bool SubdivisionSurface::may_be_regular(int mesh_face) const {
+    if (scheme_ == SubdivisionMesh::Scheme::Bilinear || kinds_[mesh_face] == FaceKind::Flat) return true;
+    const std::span<const int> corners = topology_->face_vertices(mesh_face);
+    const OpenSubdiv::Far::TopologyLevel& level = refiner_->GetLevel(0);
+    return corners.size() == 4 && std::ranges::all_of(corners, [&](int vertex) {
+               const int faces = level.GetVertexFaces(vertex).size();
+               return level.IsVertexBoundary(vertex) ? faces <= 2 : faces == 4;
+           });
+}
+
+/// Faces that are B-splines, or linear ones that are cut or not, as the first one of the block that is
+/// either.
+void SubdivisionSurface::lattices(int first, int count, int shape_key, bool beside,
+                                  FaceLattices& lattices) const {
+    lattices.there = 0;
+    NetLanes nets;
+    LimitPatch patch;
+    std::vector<float> points;
+    float corners[12];
+    bool bspline = false;
+    for (int i = 0; i < count; ++i) {
+        const FacePiece piece = topology_->piece(first + i);
+        if (kinds_[piece.mesh_face] == FaceKind::Hole || !may_be_regular(piece.mesh_face)) continue;
+        set_vertex_patch(piece.mesh_face, patch);
+        if (!patch.is_bspline() && !patch.is_linear()) continue;
+        const FaceRuns runs = piece.cut ? FaceRuns::Piece : FaceRuns::Round;
+        const bool is_first = lattices.there == 0;
+        if (!is_first && (patch.is_bspline() != bspline || runs != lattices.runs)) continue;
+        bspline = patch.is_bspline(), lattices.runs = runs;
+        patch.gather(positions_[shape_key], 3, points);
+        if (!bspline) piece_corners(piece, points.data(), 3, corners);
+        const float* const controls = bspline ? points.data() : corners;
+        // Lanes without a face are as the first.
+        const int from = is_first ? 0 : i, to = is_first ? FaceLattices::kFaces : i + 1;
+        for (int p = 0; p < (bspline ? 16 : 4); ++p)
+            for (int lane = from; lane < to; ++lane) nets.set(p, lane, controls + 3 * p);
+        lattices.there |= 1u << i;
+    }
+    if (lattices.there == 0) return;
+    net_lattices(nets, bspline ? NetForm::Bspline : NetForm::Corners, beside, lattices);
 }
 
 /// The limit surface is an average of the vertices of all faces that touch the face.

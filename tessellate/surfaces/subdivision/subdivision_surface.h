@@ -66,6 +66,8 @@ class SubdivisionSurface : public TopologySurface<SubdivisionSurface> {
     bool evaluate_variables(int face, std::span<const V2f> uv, SurfaceScratch* scratch,
                             ShadingGrid& grid) const override;
     Box3f bound(int face, V2f lo, V2f hi, int shape_key) const override;
+    bool has_lattices() const override { return scheme_ != SubdivisionMesh::Scheme::Loop; }
+    void lattices(int first, int count, int shape_key, bool beside, FaceLattices& lattices) const override;
 
     const MeshTopology& topology() const { return *topology_; }
     /// What variables are evaluated with besides.
@@ -87,12 +89,14 @@ class SubdivisionSurface : public TopologySurface<SubdivisionSurface> {
     /// The kind of a mesh face, by the library's own answer and by what it cannot take.
     FaceKind kind_of(int mesh_face) const;
     void set_vertex_patch(int mesh_face, LimitPatch& patch) const;
+    bool may_be_regular(int mesh_face) const;
     Box3f ring_box(int mesh_face, int shape_key) const;
 
     using Factory = OpenSubdiv::Bfr::RefinerSurfaceFactory<OpenSubdiv::Bfr::SurfaceFactoryCacheThreaded<
         std::shared_mutex, std::shared_lock<std::shared_mutex>, std::unique_lock<std::shared_mutex>>>;
 
     const Primitive& primitive_;
+    const SubdivisionMesh::Scheme scheme_;
     std::vector<const float*> positions_;  ///< by shape key
     std::unique_ptr<const OpenSubdiv::Far::TopologyRefiner> refiner_;
     Factory factory_;
