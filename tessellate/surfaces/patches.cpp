@@ -141,12 +141,16 @@ BezierPatch PatchSurface::controls(int face, const float* values, int count, siz
     // Patches begin a step apart; they share control points where the step is less than 4.
     const int first_i = faces_.column_of(face) * (mesh_.bicubic ? mesh_.u_step : 1);
     const int first_j = faces_.row_of(face) * (mesh_.bicubic ? mesh_.v_step : 1);
-    for (int j = 0; j <= patch.degree; ++j)
+    int columns[4];
+    for (int i = 0; i <= patch.degree; ++i) columns[i] = (first_i + i) % mesh_.nu;
+    for (int j = 0; j <= patch.degree; ++j) {
+        const size_t row = static_cast<size_t>((first_j + j) % mesh_.nv) * mesh_.nu;
         for (int i = 0; i <= patch.degree; ++i) {
-            const size_t at =
-                static_cast<size_t>((first_j + j) % mesh_.nv) * mesh_.nu + (first_i + i) % mesh_.nu;
-            std::copy_n(values + at * stride, count, patch.p[j * 4 + i].data());
+            const float* const from = values + (row + columns[i]) * stride;
+            float* const to = patch.p[j * 4 + i].data();
+            for (int k = 0; k < count; ++k) to[k] = from[k];
         }
+    }
     return patch;
 }
 

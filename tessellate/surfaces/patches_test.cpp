@@ -8,6 +8,7 @@
 #include "core/random.h"
 #include "tessellate/dicing_harness.h"
 #include "tessellate/surfaces/bezier.h"
+#include "tessellate/surfaces/face_evaluation.h"
 #include "tessellate/surfaces/forms_harness.h"
 
 namespace trapeze {
@@ -105,6 +106,33 @@ TEST(Patches, AgreeWithTheBasisFormula) {
             for (float u = 0; u <= 1; u += 0.25f)
                 for (float v = 0; v <= 1; v += 0.25f)
                     expect_near(made.at(face, {u, v}), direct(made.primitive, face, {u, v}), 2e-6f);
+    }
+}
+
+/// Batches of any size, bilinear and bicubic, give what one point alone does, to the bit.
+TEST(Patches, BatchesAreAsTheFormulaOfOnePoint) {
+    for (const int degree : {1, 3}) {
+        BezierPatch patch;
+        patch.degree = degree;
+        const std::vector<float> values = random_floats(48, 7);
+        for (size_t i = 0; i < 16; ++i) patch.p[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2], 0};
+        for (size_t count = 1; count <= 40; ++count) {
+            std::vector<V2f> uv;
+            for (size_t i = 0; i < count; ++i)
+                uv.emplace_back(unit_float(hash(1, static_cast<uint32_t>(i))), static_cast<float>(i % 5) / 4);
+            std::vector<V3f> P(count), du(count), dv(count);
+            evaluate_bezier(patch, uv, sink_of(P), sink_of(du), sink_of(dv));
+            for (size_t i = 0; i < count; ++i) {
+                Control value, by_u, by_v;
+                patch.at(uv[i], &value, &by_u, &by_v);
+                EXPECT_EQ(P[i], xyz(value)) << uv[i];
+                EXPECT_EQ(du[i], xyz(by_u)) << uv[i];
+                EXPECT_EQ(dv[i], xyz(by_v)) << uv[i];
+            }
+            std::vector<V3f> alone(count);
+            evaluate_bezier(patch, uv, sink_of(alone), {}, {});
+            EXPECT_EQ(alone, P);
+        }
     }
 }
 
