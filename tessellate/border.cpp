@@ -1,51 +1,8 @@
 #include "tessellate/border.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include "tessellate/topology/order_by_face.h"
 
 namespace trapeze {
-
-/// Threads write to places of their own, by the vertex' number: the table is the same for any number of them.
-VertexTable::VertexTable(const PlacedSurface& surface) : key_count_(surface.key_count()) {
-    // Vertices are evaluated in the order of faces, since surfaces keep the face evaluated last.
-    std::vector<SurfacePoint> points(surface.surface().vertex_count());
-    std::vector<int> faces(points.size());
-    for (uint32_t v = 0; v < points.size(); ++v)
-        points[v] = surface.surface().vertex(v), faces[v] = points[v].face;
-    const std::vector<uint32_t> order = order_by_face(faces, surface.surface().face_count());
-    positions_.resize(points.size() * key_count_);
-    tbb::parallel_for(tbb::blocked_range<size_t>(0, order.size(), 1024), [&](const auto& range) {
-        EvaluationScratch scratch;
-        std::vector<V2f> uv;
-        for (size_t first = range.begin(), end = first; first < range.end(); first = end) {
-            // The run of vertices on one face: one call of the surface for all of them.
-            const int face = points[order[first]].face;
-            uv.clear();
-            for (; end < range.end() && points[order[end]].face == face; ++end)
-                uv.push_back(points[order[end]].uv);
-            const std::span<V3f> P = scratch.points(2, uv.size() * key_count_);
-            surface.positions(face, uv, surface.key_count(), scratch, P);
-            for (size_t key = 0; key < key_count_; ++key)
-                for (size_t i = 0; i < uv.size(); ++i)
-                    positions_[order[first + i] * key_count_ + key] = P[key * uv.size() + i];
-        }
-    });
-}
-
-/// NaN fails every comparison, and so comes to the branch where it counts as infinite.
-float VertexTable::reach() const {
-    float reach = 0;
-    for (const V3f& p : positions_)
-        for (int k = 0; k < 3; ++k)
-            if (!(std::abs(p[k]) <= reach))
-                reach = std::isfinite(p[k]) ? std::abs(p[k]) : std::numeric_limits<float>::infinity();
-    return reach;
-}
 
 /// The surface gives each point the same bits in any batch, so that runs may be cut wherever they end.
 void border_positions(const PlacedSurface& surface, const VertexTable& vertices,

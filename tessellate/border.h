@@ -3,28 +3,9 @@
 #pragma once
 
 #include "tessellate/edges.h"
+#include "tessellate/vertex_table.h"
 
 namespace trapeze {
-
-/// Positions of a surface's vertices at all keys, in camera space, each made once.
-class VertexTable {
-  public:
-    VertexTable() = default;
-    /// Evaluates all vertices, in parallel.
-    explicit VertexTable(const PlacedSurface& surface);
-
-    /// A vertex's key_count positions.
-    std::span<const V3f> keys_of(uint32_t vertex) const {
-        return {positions_.data() + static_cast<size_t>(vertex) * key_count_, key_count_};
-    }
-    /// The largest coordinate, by its amount; infinite if one is no number.
-    float reach() const;
-    size_t bytes() const { return positions_.capacity() * sizeof(V3f); }
-
-  private:
-    size_t key_count_ = 1;
-    std::vector<V3f> positions_;
-};
 
 /// The most border points that a subpatch has, corners counted twice.
 inline constexpr int kMaxBorderPoints = 4 * (kMaxGridSide + 1);

@@ -108,12 +108,13 @@ uint8_t FaceEstimate::segments_of(const EdgeLine& line) const {
 /// In blocks of as many faces as there are lanes; faces that are not wholly in view keep estimates of 0 and
 /// are looked at one by one later.
 std::vector<FaceEstimate> estimate_faces(const PlacedSurface& surface, const LineMeasure& measure,
-                                         const EdgeRate& rate) {
+                                         const EdgeRate& rate, VertexTableMaker& vertices) {
     const int faces = surface.surface().face_count();
     if (faces < kFewestFaces || !surface.surface().has_lattices() || !measure.measures_lattices()) return {};
     const std::vector<int> shape_keys = shape_keys_of(surface, std::max(measure.keys(), 1));
     if (shape_keys.empty()) return {};
     std::vector<FaceEstimate> estimates(static_cast<size_t>(faces));
+    const bool rigid = surface.is_rigid();
     constexpr int kBlocksPerTask = 8;
     const int blocks = (faces + FaceLattices::kFaces - 1) / FaceLattices::kFaces;
     tbb::parallel_for(tbb::blocked_range<int>(0, blocks, kBlocksPerTask), [&](const auto& range) {
@@ -134,13 +135,14 @@ std::vector<FaceEstimate> estimate_faces(const PlacedSurface& surface, const Lin
                                                memory.lattices[key]);
             }
             measure.of(placed, lines);
+            const FaceLattices& lattices = *placed[0].lattices;
+            if (rigid) vertices.take(first, lattices);
             const FaceEstimator estimator(measure, rate, lines);
             for (int i = 0; i < count; ++i) {
                 if (!(lines.measured >> i & 1)) continue;
                 FaceEstimate& estimate = estimates[first + i] = estimator.of(i);
-                const FaceLattices& lattices = *placed[0].lattices;
                 estimate.runs = lattices.runs;
-                estimate.bounded = lattices.bounded && surface.is_rigid();
+                estimate.bounded = lattices.bounded && rigid;
                 for (int k = 0; k < 3 && estimate.bounded; ++k)
                     estimate.bound.min[k] = lattices.low[k][i], estimate.bound.max[k] = lattices.high[k][i];
             }

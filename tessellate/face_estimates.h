@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tessellate/measure/line_measure.h"
-#include "tessellate/topology/placed_surface.h"
+#include "tessellate/vertex_table.h"
 
 namespace trapeze {
 
@@ -24,8 +24,9 @@ struct FaceEstimate {
 };
 
 /// The estimates of a surface's faces, all that EdgeTessellations::add() and split_faces() would find for
-/// their own whole lines and faces; empty where the surface has no lattices of many faces.
+/// their own whole lines and faces; empty where the surface has no lattices of many faces. `vertices` takes
+/// those that are met on the way.
 std::vector<FaceEstimate> estimate_faces(const PlacedSurface& surface, const LineMeasure& measure,
-                                         const EdgeRate& rate);
+                                         const EdgeRate& rate, VertexTableMaker& vertices);
 
 }  // namespace trapeze

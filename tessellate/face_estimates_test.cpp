@@ -413,7 +413,9 @@ TEST(LatticeLines, AreAsLongAsOneByOneOnEveryInstructionSet) {
 TEST(FaceEstimates, ChangeNothing) {
     int known = 0, unknown = 0, known_edges = 0, unknown_edges = 0;
     for_kinds([&](const Measured& faces) {
-        const std::vector<FaceEstimate> estimates = estimate_faces(*faces.placed, *faces.measure, faces.rate);
+        VertexTableMaker maker(*faces.placed);
+        const std::vector<FaceEstimate> estimates =
+            estimate_faces(*faces.placed, *faces.measure, faces.rate, maker);
         ASSERT_EQ(static_cast<int>(estimates.size()), faces.surface->face_count());
         EvaluationScratch scratch;
         EdgeTessellations edges;
@@ -426,7 +428,10 @@ TEST(FaceEstimates, ChangeNothing) {
             ASSERT_EQ(edges.of(e).size(), 1u);
             EXPECT_EQ(edges.of(e)[0].segments, segments);
         }
-        const VertexTable vertices(*faces.placed);
+        const VertexTable vertices(*faces.placed), taken = maker.finish();
+        for (uint32_t v = 0; v < faces.surface->vertex_count(); ++v)
+            for (size_t key = 0; key < vertices.keys_of(v).size(); ++key)
+                ASSERT_TRUE(same_bits(taken.keys_of(v)[key], vertices.keys_of(v)[key])) << v;
         const RasterBound raster(faces.context.camera, {0, 0, 640, 480});
         SplitContext context;
         context.surface = faces.placed.get(), context.surface_edges = &edges, context.vertices = &vertices;

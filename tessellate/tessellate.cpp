@@ -225,16 +225,6 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
         out.splits.culled = static_cast<uint64_t>(out.surface->face_count());
         return;
     }
-    out.vertices = VertexTable(*out.placed);
-    if (const float reach = out.vertices.reach(); reach > kFarthest) {
-        context.diagnostics->error(
-            primitive.location,
-            fmt::format(
-                "reaches {:.3g} from the camera, where surfaces beyond {:.0g} cannot be diced; left out",
-                reach, kFarthest));
-        out.leave_out();
-        return;
-    }
     const Attributes& attributes = *primitive.attributes;
     const float blur = blur_factor(*out.placed, context.camera, metric);
     EdgeRate rate;
@@ -248,7 +238,18 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
     out.pixels_per_segment = rate.pixels_per_segment;
     const LineMeasure measure(metric, context.camera, *out.placed, out.displaced, rate.pixels_per_segment,
                               by_rays);
-    const std::vector<FaceEstimate> estimates = estimate_faces(*out.placed, measure, rate);
+    VertexTableMaker vertices(*out.placed);
+    const std::vector<FaceEstimate> estimates = estimate_faces(*out.placed, measure, rate, vertices);
+    out.vertices = vertices.finish();
+    if (const float reach = out.vertices.reach(); reach > kFarthest) {
+        context.diagnostics->error(
+            primitive.location,
+            fmt::format(
+                "reaches {:.3g} from the camera, where surfaces beyond {:.0g} cannot be diced; left out",
+                reach, kFarthest));
+        out.leave_out();
+        return;
+    }
     out.surface_edges = tessellate_edges(*out.placed, measure, rate, estimates);
     SplitContext split;
     split.surface = out.placed.get();

@@ -50,7 +50,7 @@ CurvePieces::CurvePieces(const Curves& curves, const CurveTopology& topology)
 /// A class vertex value of a curve's point, as the file gave it and not in Bezier's basis.
 Control CurvePieces::control(const CurveVariable& variable, int curve, int point) const {
     // Control points of a periodic curve's last segments are its first again.
-    const int wrapped = point % topology_.vertices_of(curve);
+    const int vertices = topology_.vertices_of(curve), wrapped = point < vertices ? point : point % vertices;
     const float* const from = variable.values + (topology_.first_vertex(curve) + wrapped) * variable.stride;
     Control value{};
     std::copy_n(from, variable.count, value.begin());

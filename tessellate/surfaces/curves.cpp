@@ -1,7 +1,9 @@
 /// Curves (RISpec 5.6): ribbons that face the camera, or lie across their normals "N". u runs across, v along
 /// the whole curve. Where a ribbon faces the camera it does so at every motion key by itself.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "tessellate/surfaces/ribbon_cache.h"
 #include "tessellate/surfaces/surface_variables.h"
@@ -259,6 +261,30 @@ void CurvesSurface::evaluate(int face, std::span<const V2f> uv, int key, Surface
     }
 }
 
+/// As CurvesSurface::bound() of whole faces of cubic ribbons, in lanes.
+void bound_ribbons(std::span<const RibbonLanes> segments, bool cubic_width, FaceLattices& lattices) {
+    constexpr int kFaces = FaceLattices::kFaces;
+    std::array<float, kFaces> grow{};
+    for (int k = 0; k < 3; ++k)
+        for (int i = 0; i < kFaces; ++i)
+            lattices.low[k][i] = std::numeric_limits<float>::max(),
+            lattices.high[k][i] = std::numeric_limits<float>::lowest();
+    for (const RibbonLanes& segment : segments)
+        for (int p = 0; p < 4; ++p)
+            for (int i = 0; i < kFaces; ++i) {
+                for (int k = 0; k < 3; ++k) {
+                    const float at = segment.P[p][k][i];
+                    lattices.low[k][i] = at < lattices.low[k][i] ? at : lattices.low[k][i];
+                    lattices.high[k][i] = at > lattices.high[k][i] ? at : lattices.high[k][i];
+                }
+                if (cubic_width || p < 2) grow[i] = std::max(grow[i], std::abs(segment.width[p][i]));
+            }
+    for (int k = 0; k < 3; ++k)
+        for (int i = 0; i < kFaces; ++i)
+            lattices.low[k][i] -= grow[i] * 0.5f, lattices.high[k][i] += grow[i] * 0.5f;
+    lattices.bounded = true;
+}
+
 /// Faces with as many segments as the first one. Foreshortening is not looked at.
 void CurvesSurface::lattices(int first, int count, int key, bool, FaceLattices& lattices) const {
     std::array<RibbonLanes, kSmoothSegmentsPerFace> segments;
@@ -282,6 +308,7 @@ void CurvesSurface::lattices(int first, int count, int key, bool, FaceLattices& 
     }
     facing_lattices({segments.data(), static_cast<size_t>(of_first)}, cubic_width, facing_[key], faces,
                     lattices);
+    bound_ribbons({segments.data(), static_cast<size_t>(of_first)}, cubic_width, lattices);
 }
 
 /// Values of variables on one face.

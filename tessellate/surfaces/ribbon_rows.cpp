@@ -207,7 +207,7 @@ void lattices_of_segments(std::span<const RibbonLanes> segments, bool cubic_widt
                           &lattices.points[Lattice::side(r == 0 ? kBottom : kTop, 0)]);
         }
     }
-    lattices.runs = FaceRuns::Upwards, lattices.bounded = false;
+    lattices.runs = FaceRuns::Upwards;
     lattices.there = ok;
 }
 

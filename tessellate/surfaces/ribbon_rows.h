@@ -34,7 +34,7 @@ struct RibbonLanes {
 };
 
 /// The lattices of faces of segments[0 .. n) each; faces of which a row has to be made with care are left
-/// out. Sets all but the points beside sides; lattices.there is among `faces`.
+/// out. Sets all but the points beside sides and bounds; lattices.there is among `faces`.
 void facing_lattices(std::span<const RibbonLanes> segments, bool cubic_width, const CameraFacing& facing,
                      uint32_t faces, FaceLattices& lattices);
 
