@@ -30,19 +30,21 @@ class Dicer {
     /// positions, because the same point evaluated on two faces differs in its last bits.
     void run(DiceFor wanted) {
         prepare_grid();
-        find_border();
+        // Borders of pieces that are displaced are kept whatever they join.
+        const bool alone = subpatch_.alone && !context_.displaced;
+        if (!alone) find_border();
         place_vertices();
         if (!all_in_place_)
             snap_border_parameters(context_.edges, subpatch_, sides_, points(), border(), context_.displaced,
                                    scratch_.uv);
         if (wanted == DiceFor::Hits && !context_.displaced) {
             evaluate_places();
-            set_border_positions();
+            if (!alone) set_border_positions();
             if (has_own_colors()) set_variables();
             return;
         }
         evaluate();
-        set_border_positions();
+        if (!alone) set_border_positions();
         set_normals();
         set_variables();
         if (context_.displaced) make_shared_border(context_, points(), border(), grid_, scratch_);

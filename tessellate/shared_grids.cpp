@@ -52,6 +52,7 @@ class SharedGrids final : public TopologySurface<SharedGrids> {
 
     const Surface& topology() const { return *surface_; }
     bool is_hole(int face) const override { return surface_->is_hole(face); }
+    bool stands_alone(int face) const override { return surface_->stands_alone(face); }
     std::unique_ptr<SurfaceScratch> make_scratch() const override { return surface_->make_scratch(); }
     bool has_motion_keys() const override { return surface_->has_motion_keys(); }
     bool evaluate_variables(int face, std::span<const V2f> uv, SurfaceScratch* scratch,

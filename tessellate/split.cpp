@@ -62,6 +62,7 @@ class FaceSplitter {
 
     void split_face(int face) {
         face_ = face;
+        stands_alone_ = surface_.surface().stands_alone(face);
         parts_ = 0;
         SplitNode node;
         node.sides = surface_.surface().sides(face);
@@ -105,6 +106,8 @@ class FaceSplitter {
         emit(node, {Want{false, estimate.nu}, Want{false, estimate.nv}});
         return true;
     }
+
+    static bool is_whole(const SplitNode& node) { return node.depth_u == 0 && node.depth_v == 0; }
 
     bool in_interval(const SurfaceSide& side) const {
         return edges_.interval(side.edge, side.begin, side.end) != nullptr;
@@ -230,8 +233,13 @@ class FaceSplitter {
         subpatch.face = face_;
         subpatch.lo = node.lo, subpatch.hi = node.hi;
         subpatch.sides = node.sides;
-        subpatch.shape.nu = static_cast<uint8_t>(std::max({count(kBottom), count(kTop), want[0].segments}));
-        subpatch.shape.nv = static_cast<uint8_t>(std::max({count(kLeft), count(kRight), want[1].segments}));
+        const int bottom = count(kBottom), top = count(kTop), left = count(kLeft), right = count(kRight);
+        const int nu = std::max({bottom, top, want[0].segments}),
+                  nv = std::max({left, right, want[1].segments});
+        subpatch.shape.nu = static_cast<uint8_t>(nu);
+        subpatch.shape.nv = static_cast<uint8_t>(nv);
+        subpatch.alone =
+            bottom == nu && top == nu && left == nv && right == nv && is_whole(node) && stands_alone_;
         out_.subpatches.push_back(subpatch);
         out_.bounds.push_back(seen.rect);
     }
@@ -240,14 +248,13 @@ class FaceSplitter {
     RasterBound::Result bound(const SplitNode& node) {
         const int keys = surface_.key_count();
         boxes_.assign(keys, {});
-        const bool whole = node.depth_u == 0 && node.depth_v == 0;
         const FaceEstimate* const known =
-            whole && !context_.estimates.empty() ? &context_.estimates[face_] : nullptr;
+            is_whole(node) && !context_.estimates.empty() ? &context_.estimates[face_] : nullptr;
         for (int key = 0; key < keys; ++key)
             boxes_[key] = known && known->bounded ? surface_.bound(known->bound, key)
                                                   : surface_.bound(face_, node.lo, node.hi, key);
         if (boxes_[0].isEmpty()) sampled_bound(node);
-        add_moved_corners(node);
+        if (!stands_alone_ || !is_whole(node)) add_moved_corners(node);
         for (Box3f& box : boxes_) {
             if (box.isEmpty()) continue;
             box = grown(box, context_.displacement_bound);
@@ -306,7 +313,8 @@ class FaceSplitter {
     EvaluationScratch scratch_;
     std::vector<Box3f> boxes_;
     int face_ = 0;
-    size_t parts_ = 0;  ///< of the face, seen or not, and its made edges' likes
+    bool stands_alone_ = false;  ///< the face
+    size_t parts_ = 0;           ///< of the face, seen or not, and its made edges' likes
 };
 
 }  // namespace

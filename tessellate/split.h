@@ -19,6 +19,7 @@ inline constexpr int kCoarseLatticePieces = 2;
 struct Subpatch {
     int face = 0;
     GridShape shape;
+    bool alone = false;  ///< a whole face that stands alone, as finely cut as its edges
     V2f lo{0, 0}, hi{1, 1};
     std::array<SurfaceSide, 4> sides;
 };

@@ -36,6 +36,7 @@ class CurvesSurface : public TopologySurface<CurvesSurface> {
         const CurveTopology::Strip strip = topology_.strip(face);
         return {1, static_cast<float>(strip.all) / static_cast<float>(strip.count)};
     }
+    bool stands_alone(int face) const override { return topology_.stands_alone(face); }
     bool has_motion_keys() const override { return true; }
     std::unique_ptr<SurfaceScratch> make_scratch() const override { return std::make_unique<RibbonCache>(); }
 

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <span>
+#include <vector>
 
 #include "core/portable_math.h"
 #include "tessellate/surfaces/camera_facing.h"
@@ -41,6 +44,28 @@ DiskPoint disk_point(V2f uv) {
     if (sideways) return {at, by_r, by_other};
     return {exchanged(at), exchanged(by_other), exchanged(by_r)};
 }
+
+/// What a thread keeps of the unit disk: grids of as many vertices ask for the same places again and again.
+class DiskScratch : public SurfaceScratch {
+  public:
+    /// disk_point() of each; valid until the next call.
+    std::span<const DiskPoint> points(std::span<const V2f> uv) {
+        Batch& batch = batches_[uv.size() % batches_.size()];
+        if (!std::ranges::equal(batch.uv, uv)) {
+            batch.uv.assign(uv.begin(), uv.end());
+            batch.points.clear();
+            for (const V2f& at : uv) batch.points.push_back(disk_point(at));
+        }
+        return batch.points;
+    }
+
+  private:
+    struct Batch {
+        std::vector<V2f> uv;
+        std::vector<DiskPoint> points;
+    };
+    std::array<Batch, 32> batches_;
+};
 
 /// The parameters of a lattice's points that are not beside others, and disk_point() of them.
 struct DiskLattice {
@@ -111,7 +136,9 @@ class PointsSurface : public Surface {
     SurfacePoint vertex(uint32_t vertex) const override {
         return {static_cast<int>(vertex / 4), kCorners[vertex % 4]};
     }
+    bool stands_alone(int) const override { return true; }
     bool has_motion_keys() const override { return true; }
+    std::unique_ptr<SurfaceScratch> make_scratch() const override { return std::make_unique<DiskScratch>(); }
     bool is_hole(int face) const override;
 
     void evaluate(int face, std::span<const V2f> uv, int key, SurfaceScratch* scratch, std::span<V3f> P,
@@ -236,12 +263,14 @@ PointsSurface::Disk PointsSurface::disk(int point, int key) const {
     return disk;
 }
 
-void PointsSurface::evaluate(int face, std::span<const V2f> uv, int key, SurfaceScratch*, std::span<V3f> P,
-                             std::span<V3f> dPdu, std::span<V3f> dPdv) const {
+void PointsSurface::evaluate(int face, std::span<const V2f> uv, int key, SurfaceScratch* scratch,
+                             std::span<V3f> P, std::span<V3f> dPdu, std::span<V3f> dPdv) const {
     const Disk d = disk(face, key);
+    DiskScratch own;
+    std::span<const DiskPoint> on_disk;
+    if (!d.rectangle) on_disk = (scratch ? static_cast<DiskScratch&>(*scratch) : own).points(uv);
     for (size_t i = 0; i < uv.size(); ++i) {
-        DiskPoint p{d.at(uv[i]), {2, 0}, {0, 2}};
-        if (!d.rectangle) p = disk_point(uv[i]);
+        const DiskPoint p = d.rectangle ? DiskPoint{d.at(uv[i]), {2, 0}, {0, 2}} : on_disk[i];
         P[i] = d.centre + d.x * p.at.x + d.y * p.at.y;
         if (!dPdu.empty()) dPdu[i] = d.x * p.by_u.x + d.y * p.by_u.y;
         if (!dPdv.empty()) dPdv[i] = d.x * p.by_v.x + d.y * p.by_v.y;

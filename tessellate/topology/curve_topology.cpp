@@ -74,6 +74,12 @@ EdgeLine CurveTopology::edge(uint32_t edge) const {
     return line;
 }
 
+bool CurveTopology::stands_alone(int face) const {
+    if (!joins_) return true;
+    const int curve = curve_of_face_[face];
+    return !curves_.periodic && first_face_[curve + 1] - first_face_[curve] == 1;
+}
+
 /// Each joint has two vertices, at the two sides of the ribbon.
 SurfacePoint CurveTopology::vertex(uint32_t vertex) const {
     const uint32_t joint = vertex / 2;

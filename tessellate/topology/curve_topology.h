@@ -26,6 +26,8 @@ class CurveTopology {
     std::array<SurfaceSide, 4> sides(int face) const;
     EdgeLine edge(uint32_t edge) const;
     SurfacePoint vertex(uint32_t vertex) const;
+    /// Faces that join nothing, not even themselves.
+    bool stands_alone(int face) const;
 
     /// The segments that one face holds; faces of a curve hold equally many, to within one.
     struct Strip {

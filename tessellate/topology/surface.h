@@ -74,6 +74,9 @@ class Surface {
     virtual std::array<SurfaceSide, 4> sides(int face) const = 0;
     /// Where all of an edge's points are evaluated, whoever asks.
     virtual EdgeLine edge(uint32_t edge) const = 0;
+    /// Whether nothing else has a face's edges and vertices, all four of which lie at its own sides and
+    /// corners: then its border is where the face is.
+    virtual bool stands_alone(int /*face*/) const { return false; }
     /// Where a vertex is evaluated: a corner of one face.
     virtual SurfacePoint vertex(uint32_t vertex) const = 0;
 
