@@ -105,8 +105,10 @@ TEST(FacesThatStandAlone, AreDicedAsOthers) {
                 dice_subpatch(context, subpatch, got, state, wanted);
                 subpatch.alone = false;
                 dice_subpatch(context, subpatch, expected, state, wanted);
+                ASSERT_EQ(got.P.size(), expected.P.size());
                 for (int k = 0; k < 3; ++k) {
-                    EXPECT_EQ(got.P[0].c[k], expected.P[0].c[k]);
+                    for (size_t key = 0; key < got.P.size(); ++key)
+                        EXPECT_EQ(got.P[key].c[k], expected.P[key].c[k]);
                     if (wanted == DiceFor::Hits) continue;
                     EXPECT_EQ(got.N.c[k], expected.N.c[k]);
                     EXPECT_EQ(got.dPdu.c[k], expected.dPdu.c[k]);

@@ -105,8 +105,8 @@ uint8_t FaceEstimate::segments_of(const EdgeLine& line) const {
     return 0;
 }
 
-/// In blocks of as many faces as there are lanes; faces that are not wholly in view keep estimates of 0 and
-/// are looked at one by one later.
+/// In blocks of as many faces as there are lanes; faces that are not measured keep estimates of 0 and are
+/// looked at one by one later.
 std::vector<FaceEstimate> estimate_faces(const PlacedSurface& surface, const LineMeasure& measure,
                                          const EdgeRate& rate, VertexTableMaker& vertices) {
     const int faces = surface.surface().face_count();
@@ -134,8 +134,11 @@ std::vector<FaceEstimate> estimate_faces(const PlacedSurface& surface, const Lin
                     surface.surface().lattices(first, count, shape_keys[key], measure.keys() > 0,
                                                memory.lattices[key]);
             }
-            measure.of(placed, lines);
             const FaceLattices& lattices = *placed[0].lattices;
+            // Where a block has no face of this kind at all, nothing has been set.
+            if (!std::ranges::all_of(placed, [](const PlacedLattices& p) { return p.lattices->there != 0; }))
+                continue;
+            measure.of(placed, lines);
             if (rigid) vertices.take(first, lattices);
             const FaceEstimator estimator(measure, rate, lines);
             for (int i = 0; i < count; ++i) {

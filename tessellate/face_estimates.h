@@ -24,8 +24,9 @@ struct FaceEstimate {
 };
 
 /// The estimates of a surface's faces, all that EdgeTessellations::add() and split_faces() would find for
-/// their own whole lines and faces; empty where the surface has no lattices of many faces. `vertices` takes
-/// those that are met on the way.
+/// their own whole lines and faces; empty where the surface has no lattices of many faces or few faces, where
+/// the view is orthographic, and where shapes are mixed at keys that are looked at. `vertices` takes those
+/// that are met on the way.
 std::vector<FaceEstimate> estimate_faces(const PlacedSurface& surface, const LineMeasure& measure,
                                          const EdgeRate& rate, VertexTableMaker& vertices);
 

@@ -165,6 +165,10 @@ void for_kinds_not_foreshortened(const F& f) {
                in_front));
     f(Measured(dots(75), in_front));
     f(Measured(dots(75), mirrored()));
+    const M44f nearer = translation(0.2f, 0.1f, 3);
+    f(Measured({hairs_of(kBezier, 3, std::vector<int>(37, 4), StorageClass::Constant, 0.1f)},
+               {in_front, nearer}, 0));
+    f(Measured({dots(40)}, {in_front, nearer, in_front}, 0.1f));
     // Through the eye's plane, and many times as long as a grid.
     f(Measured(hairs_of(kBezier, 3, std::vector<int>(37, 4), StorageClass::Constant, 2),
                translation(0, 0, 0.5f)));
@@ -185,6 +189,7 @@ void for_meshes(const F& f) {
     still(subdivided(bumpy(40, 0.1f, false)), tilted(0.3f, 4));
     still(subdivided(bumpy(24, 0.02f, false), {{"interpolateboundary", {}, {}, {}}}), tilted(1.5f, 4));
     still(subdivided(bumpy(24, 0.1f, false), {{"crease", {30, 31, 32, 33}, {3}, {}}}), tilted(0.8f, 3));
+    still(subdivided(bumpy(20, 0.1f, false), {{"hole", {0, 1, 2, 3, 40, 200}, {}, {}}}), tilted(0.8f, 3));
     still(subdivided(bumpy(12, 0.1f, true)), tilted(0.3f, 4));
     still(subdivided(bumpy(20, 0.1f, false), {}, SubdivisionMesh::Scheme::Bilinear), tilted(0.3f, 4));
     still(subdivided(prism_cage(7)), tilted(0.3f, 6));

@@ -238,9 +238,10 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
     out.pixels_per_segment = rate.pixels_per_segment;
     const LineMeasure measure(metric, context.camera, *out.placed, out.displaced, rate.pixels_per_segment,
                               by_rays);
-    VertexTableMaker vertices(*out.placed);
-    const std::vector<FaceEstimate> estimates = estimate_faces(*out.placed, measure, rate, vertices);
-    out.vertices = vertices.finish();
+    std::optional<VertexTableMaker> vertices(*out.placed);
+    const std::vector<FaceEstimate> estimates = estimate_faces(*out.placed, measure, rate, *vertices);
+    out.vertices = vertices->finish();
+    vertices.reset();
     if (const float reach = out.vertices.reach(); reach > kFarthest) {
         context.diagnostics->error(
             primitive.location,

@@ -89,9 +89,9 @@ struct LaneEstimate {
     }
 };
 
-/// A piece's lengths: as it is seen, seen square on, and in camera space, squared.
+/// A piece's lengths: as it is seen, and seen square on.
 struct LanePiece {
-    Lanes seen, square_on, own2;
+    Lanes seen, square_on;
 };
 
 /// Measures the faces in lanes `first` on. The order of operations is that of ScreenMetric and LineMeasure:
@@ -190,8 +190,7 @@ class LaneMeasure {
         const LaneVector p = lattice.point(from), q = lattice.point(to);
         LanePiece piece;
         piece.seen = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
-        piece.own2 = difference(q, p).length2();
-        const Lanes wide = hn::Mul(hn::Mul(hn::Sqrt(piece.own2), pixels_), hn::Set(d, 2));
+        const Lanes wide = hn::Mul(hn::Mul(hn::Sqrt(difference(q, p).length2()), pixels_), hn::Set(d, 2));
         piece.square_on = hn::Div(wide, hn::Add(p.z, q.z));
         return piece;
     }

@@ -30,7 +30,9 @@ struct LatticeLines {
     LatticeLine two[2][3];   ///< inner lines in two pieces
     LatticeLengths lengths;  ///< as LineMeasure::of() has them
     LatticeLengths seen;     ///< as foreshortened() has them; of faces where `lengths` may want less
-    uint32_t measured = 0;   ///< faces that are wholly in view, a bit each; others have no lengths
+    /// Faces that are there, wholly in view, and have no lengths so small that they are computed otherwise; a
+    /// bit each. Others have no lengths.
+    uint32_t measured = 0;
 };
 
 /// What a LineMeasure knows; see there.

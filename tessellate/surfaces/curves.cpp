@@ -293,10 +293,12 @@ void CurvesSurface::lattices(int first, int count, int key, bool, FaceLattices& 
     uint32_t faces = 0;
     bool cubic_width = false;
     for (int i = 0; i < FaceLattices::kFaces; ++i) {
-        // Lanes without a face are as the first.
-        const CurveTopology::Strip strip = topology_.strip(i < count ? first + i : first);
-        if (strip.count != of_first) continue;
-        if (i < count) faces |= 1u << i;
+        // Lanes without such a face are as the first.
+        CurveTopology::Strip strip = topology_.strip(i < count ? first + i : first);
+        if (strip.count != of_first)
+            strip = topology_.strip(first);
+        else if (i < count)
+            faces |= 1u << i;
         for (int number = 0; number < of_first; ++number) {
             const RibbonSegment s = segment(strip.curve, strip.first + number, key);
             RibbonLanes& lanes = segments[number];

@@ -177,8 +177,11 @@ void PatchSurface::evaluate(int face, std::span<const V2f> uv, int shape_key, Su
     if (!points_[shape_key].rational)
         return evaluate_bezier(patch, uv, sink_of(P), sink_of(dPdu), sink_of(dPdv));
     for (size_t i = 0; i < uv.size(); ++i) {
-        Control value, by_u, by_v;
-        patch.at(uv[i], &value, &by_u, &by_v);
+        Control value, by_u{}, by_v{};
+        if (dPdu.empty() && dPdv.empty())
+            value = patch.at(uv[i]);
+        else
+            patch.at(uv[i], &value, &by_u, &by_v);
         const float scale = 1 / value[3];
         P[i] = xyz(value) * scale;
         // By the quotient rule.

@@ -266,9 +266,10 @@ PointsSurface::Disk PointsSurface::disk(int point, int key) const {
 void PointsSurface::evaluate(int face, std::span<const V2f> uv, int key, SurfaceScratch* scratch,
                              std::span<V3f> P, std::span<V3f> dPdu, std::span<V3f> dPdv) const {
     const Disk d = disk(face, key);
-    DiskScratch own;
+    std::unique_ptr<SurfaceScratch> own;
+    if (!scratch) own = make_scratch(), scratch = own.get();
     std::span<const DiskPoint> on_disk;
-    if (!d.rectangle) on_disk = (scratch ? static_cast<DiskScratch&>(*scratch) : own).points(uv);
+    if (!d.rectangle) on_disk = static_cast<DiskScratch&>(*scratch).points(uv);
     for (size_t i = 0; i < uv.size(); ++i) {
         const DiskPoint p = d.rectangle ? DiskPoint{d.at(uv[i]), {2, 0}, {0, 2}} : on_disk[i];
         P[i] = d.centre + d.x * p.at.x + d.y * p.at.y;

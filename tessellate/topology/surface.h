@@ -83,8 +83,8 @@ class Surface {
     /// Null when none is needed. Never shared between threads.
     virtual std::unique_ptr<SurfaceScratch> make_scratch() const { return nullptr; }
 
-    /// True of surfaces that depend on where they are seen from: the keys that evaluate() and bound() are
-    /// asked for are the moving primitive's (Primitive::key_count), not those of its shape.
+    /// True of surfaces that depend on where they are seen from: the keys that evaluate(), lattices() and
+    /// bound() are asked for are the moving primitive's (Primitive::key_count), not those of its shape.
     virtual bool has_motion_keys() const { return false; }
 
     /// Object-space positions and derivatives by the face's u and v at points of one face, for one of the
