@@ -54,17 +54,6 @@ HWY_INLINE Lanes smaller(Lanes a, Lanes b) {
     return hn::IfThenElse(hn::Lt(b, a), b, a);
 }
 
-HWY_INLINE Lanes dot(const LaneVector& a, const LaneVector& b) {
-    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-HWY_INLINE LaneVector difference(const LaneVector& a, const LaneVector& b) {
-    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-HWY_INLINE LaneVector cross(const LaneVector& a, const LaneVector& b) {
-    return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-            hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
-}
-
 /// Points of as many faces as there are lanes, at one key: in camera space, and in units of the image plane,
 /// where beside ones are not wanted.
 struct LaneLattice {

@@ -6,27 +6,13 @@
 namespace trapeze {
 namespace {
 
-/// Weights of the control points and their derivatives, exact at 0 and 1.
-struct Weights {
-    float w[4], d[4];
-};
-
-/// Bernstein polynomials of degree 1 or 3 at t; unused places are 0.
-Weights weights(int degree, float t) {
-    const float s = 1 - t;
-    if (degree == 1) return {{s, t, 0, 0}, {-1, 1, 0, 0}};
-    const float ss = s * s, st = s * t, tt = t * t;
-    return {{ss * s, 3 * ss * t, 3 * s * tt, tt * t},
-            {-3 * ss, 3 * (ss - 2 * st), 3 * (2 * st - tt), 3 * tt}};
-}
-
 /// sum += p * weight, for all four components.
 void add(Control& sum, const Control& p, float weight) {
     for (int k = 0; k < 4; ++k) sum[k] += p[k] * weight;
 }
 
 /// The nearer end's value and steps from there: those between equal values are 0, and ends are exact.
-float combine(const std::array<float, 4>& c, int degree, const Weights& weights, float t) {
+float combine(const std::array<float, 4>& c, int degree, const BezierWeights& weights, float t) {
     const float from = c[t < 0.5f ? 0 : degree];
     float steps = 0;
     for (int i = 0; i <= degree; ++i) steps += weights.w[i] * (c[i] - from);
@@ -63,10 +49,19 @@ void restrict_line(Control* p, int stride, int degree, float lo, float hi) {
 
 }  // namespace
 
+/// Bernstein polynomials.
+BezierWeights bezier_weights(int degree, float t) {
+    const float s = 1 - t;
+    if (degree == 1) return {{s, t, 0, 0}, {-1, 1, 0, 0}};
+    const float ss = s * s, st = s * t, tt = t * t;
+    return {{ss * s, 3 * ss * t, 3 * s * tt, tt * t},
+            {-3 * ss, 3 * (ss - 2 * st), 3 * (2 * st - tt), 3 * tt}};
+}
+
 /// Along u in each row, then along v: in this order for all, so that patches which share a border row round
 /// alike on it.
 Control BezierPatch::at(V2f uv) const {
-    const Weights u = weights(degree, uv.x), v = weights(degree, uv.y);
+    const BezierWeights u = bezier_weights(degree, uv.x), v = bezier_weights(degree, uv.y);
     Control sum{};
     for (int j = 0; j <= degree; ++j) {
         Control row{};
@@ -78,7 +73,7 @@ Control BezierPatch::at(V2f uv) const {
 
 /// As at(), with combine() in place of plain sums, which is what keeps equal values equal.
 float BezierPatch::number_at(V2f uv) const {
-    const Weights u = weights(degree, uv.x), v = weights(degree, uv.y);
+    const BezierWeights u = bezier_weights(degree, uv.x), v = bezier_weights(degree, uv.y);
     std::array<float, 4> rows{};
     for (int j = 0; j <= degree; ++j) {
         const Control* const row = &p[j * 4];
@@ -89,7 +84,7 @@ float BezierPatch::number_at(V2f uv) const {
 
 /// Row by row along u, then along v: the sums of each row serve the value and both derivatives.
 void BezierPatch::at(V2f uv, Control* value, Control* by_u, Control* by_v) const {
-    const Weights u = weights(degree, uv.x), v = weights(degree, uv.y);
+    const BezierWeights u = bezier_weights(degree, uv.x), v = bezier_weights(degree, uv.y);
     *value = *by_u = *by_v = {};
     for (int j = 0; j <= degree; ++j) {
         Control row{}, row_by_u{};
@@ -113,7 +108,7 @@ BezierPatch BezierPatch::restricted(V2f lo, V2f hi) const {
 }
 
 void BezierCurve::at(float t, Control* value, Control* by_t) const {
-    const Weights w = weights(3, t);
+    const BezierWeights w = bezier_weights(3, t);
     *value = *by_t = {};
     for (int i = 0; i < 4; ++i) {
         add(*value, p[i], w.w[i]);

@@ -17,6 +17,12 @@ inline V3f xyz(const Control& c) {
     return {c[0], c[1], c[2]};
 }
 
+/// Weights of the control points of degree 1 or 3 and their derivatives, exact at 0 and 1; unused ones are 0.
+struct BezierWeights {
+    float w[4], d[4];
+};
+BezierWeights bezier_weights(int degree, float t);
+
 /// A patch over (u, v) in [0,1]^2, of degree 1 or 3 along both; point (i, j) is p[j * 4 + i], i along u. A
 /// bilinear patch uses i and j of 0 and 1 alone, at the same places of the array.
 struct BezierPatch {

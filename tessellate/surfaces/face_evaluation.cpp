@@ -83,12 +83,12 @@ inline void combine(const Lanes<n> (&w)[4], const float* c, int stride, Lanes<n>
     for (size_t l = 0; l < n; ++l) sum[l] = (w[0][l] * c0 + w[1][l] * c1) + (w[2][l] * c2 + w[3][l] * c3);
 }
 
-/// Bernstein polynomials of a degree, and their derivatives: those of BezierPatch.
+/// Bernstein polynomials of a degree, and their derivatives: bezier_weights() in lanes.
 template <int degree, size_t n>
-struct BezierWeights {
+struct BernsteinLanes {
     Lanes<n> w[degree + 1], d[degree + 1];
 
-    explicit BezierWeights(const Lanes<n>& at) {
+    explicit BernsteinLanes(const Lanes<n>& at) {
         for (size_t l = 0; l < n; ++l) {
             const float t = at[l], s = 1 - t;
             if constexpr (degree == 1) {
@@ -121,7 +121,7 @@ template <int degree, size_t n>
 void evaluate_block(const BezierPatch& patch, const PointBlock<n>& b, const ValueSink& value,
                     const ValueSink& du, const ValueSink& dv) {
     constexpr int kFloats = std::tuple_size_v<Control>;
-    const BezierWeights<degree, n> u(b.u), v(b.v);
+    const BernsteinLanes<degree, n> u(b.u), v(b.v);
     for (int k = 0; k < 3; ++k) {
         const auto control = [&](int row) { return &patch.p[static_cast<size_t>(row) * 4][0] + k; };
         Lanes<n> row[degree + 1], sum;

@@ -4,6 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "tessellate/surfaces/bezier.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tessellate/surfaces/net_lattices.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once a target
@@ -13,8 +15,8 @@
 #define TRAPEZE_TESSELLATE_NET_LATTICES_ONCE
 namespace trapeze {
 
-/// Weights of up to four control points at a parameter. The formulas are those of CubicWeights
-/// (face_evaluation.cpp) and of BezierPatch: the same bits.
+/// Weights of up to four control points at a parameter. That of B-splines is CubicWeights
+/// (face_evaluation.cpp): the same bits.
 using NetWeights = std::array<float, 4>;
 
 inline NetWeights net_weights(NetForm form, float t) {
@@ -25,12 +27,12 @@ inline NetWeights net_weights(NetForm form, float t) {
             return {sixth * (ss * s), sixth * (4 - 3 * (tt * (1 + s))), sixth * (4 - 3 * (ss * (1 + t))),
                     sixth * (tt * t)};
         case NetForm::Bezier:
-            return {ss * s, 3 * ss * t, 3 * s * tt, tt * t};
+            return std::to_array(bezier_weights(3, t).w);
         case NetForm::Corners:
         case NetForm::BezierLines:
             break;
     }
-    return {s, t, 0, 0};
+    return std::to_array(bezier_weights(1, t).w);
 }
 
 /// A point of lattices: where it goes, and its weights along both axes.
@@ -47,17 +49,11 @@ struct LatticePlan {
     size_t count = 0;
 
     LatticePlan(NetForm form, FaceRuns runs, bool beside) {
-        const auto add = [&](V2f uv, int number) {
-            points[count++] = {uv.x, number, net_weights(form, uv.x), net_weights(form, uv.y)};
-        };
-        for (int r = 0; r < FaceLattices::kLines; ++r)
-            for (int c = 0; c < FaceLattices::kLines; ++c)
-                add(FaceLattices::inner_uv(r, c), FaceLattices::inner(r, c));
-        for (int side = 0; side < 4; ++side)
-            for (int i = 0; i < FaceLattices::kSidePoints; ++i) {
-                add(FaceLattices::side_uv(runs, side, i), FaceLattices::side(side, i));
-                if (beside) add(FaceLattices::beside_uv(runs, side, i), FaceLattices::beside(side, i));
-            }
+        for (; count < (beside ? FaceLattices::kPoints : FaceLattices::kFirstBeside); ++count) {
+            const int number = static_cast<int>(count);
+            const V2f uv = FaceLattices::uv(runs, number);
+            points[count] = {uv.x, number, net_weights(form, uv.x), net_weights(form, uv.y)};
+        }
         std::sort(points.begin(), points.begin() + count,
                   [](const PlannedPoint& a, const PlannedPoint& b) { return a.u < b.u; });
     }

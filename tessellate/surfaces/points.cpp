@@ -72,13 +72,10 @@ struct DiskLattice {
     V2f uv[FaceLattices::kFirstBeside], at[FaceLattices::kFirstBeside];
 
     DiskLattice() {
-        for (int r = 0; r < FaceLattices::kLines; ++r)
-            for (int c = 0; c < FaceLattices::kLines; ++c)
-                uv[FaceLattices::inner(r, c)] = FaceLattices::inner_uv(r, c);
-        for (int side = 0; side < 4; ++side)
-            for (int i = 0; i < FaceLattices::kSidePoints; ++i)
-                uv[FaceLattices::side(side, i)] = FaceLattices::side_uv(FaceRuns::Upwards, side, i);
-        for (int i = 0; i < FaceLattices::kFirstBeside; ++i) at[i] = disk_point(uv[i]).at;
+        for (int i = 0; i < FaceLattices::kFirstBeside; ++i) {
+            uv[i] = FaceLattices::uv(FaceRuns::Upwards, i);
+            at[i] = disk_point(uv[i]).at;
+        }
     }
 };
 

@@ -66,12 +66,7 @@ HWY_INLINE LaneVector across(const CameraFacing& facing, const LaneVector& ray, 
                              hn::Mask<F>& ok) {
     const F d;
     const Lanes outside = hn::Set(d, facing.outside());
-    const auto less = [](Lanes a, Lanes b, Lanes c, Lanes e) {
-        return hn::Sub(hn::Mul(a, b), hn::Mul(c, e));
-    };
-    const LaneVector cross = {less(ray.y, along.z, ray.z, along.y), less(ray.z, along.x, ray.x, along.z),
-                              less(ray.x, along.y, ray.y, along.x)};
-    const LaneVector side = cross * outside;
+    const LaneVector side = cross(ray, along) * outside;
     constexpr float kParallel = CameraFacing::kParallel;
     const Lanes least = hn::Mul(hn::Mul(hn::Set(d, kParallel * kParallel), ray.length2()), along.length2());
     ok = hn::And(ok, hn::Gt(side.length2(), least));
@@ -91,9 +86,7 @@ HWY_INLINE LaneRow row_at(const LaneSegment& segment, const CameraFacing& facing
     LaneRow row;
     row.centre = combine(weights.w, segment.P);
     row.by_t = combine(weights.d, segment.P);
-    const LaneVector chord = {hn::Sub(segment.P[3].x, segment.P[0].x),
-                              hn::Sub(segment.P[3].y, segment.P[0].y),
-                              hn::Sub(segment.P[3].z, segment.P[0].z)};
+    const LaneVector chord = difference(segment.P[3], segment.P[0]);
     row.ok = hn::Gt(row.by_t.length2(), hn::Mul(hn::Set(d, kLeastSpeed2), chord.length2()));
 
     const M44f& m = facing.camera_from_object();

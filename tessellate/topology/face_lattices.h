@@ -59,6 +59,14 @@ struct FaceLattices {
     static V2f side_uv(FaceRuns runs, int side, int i) { return on_side(runs, side, i, 0); }
     static V2f beside_uv(FaceRuns runs, int side, int i) { return on_side(runs, side, i, kBeside); }
 
+    /// The parameters of a point by its number.
+    static V2f uv(FaceRuns runs, int number) {
+        if (number < kFirstSide) return inner_uv(number / kLines, number % kLines);
+        const bool is_beside = number >= kFirstBeside;
+        const int of_side = number - (is_beside ? kFirstBeside : kFirstSide);
+        return on_side(runs, of_side / kSidePoints, of_side % kSidePoints, is_beside ? kBeside : 0.0f);
+    }
+
   private:
     static V2f on_side(FaceRuns runs, int side, int i, float inside) {
         const float step = static_cast<float>(i) / (kSidePoints - 1);

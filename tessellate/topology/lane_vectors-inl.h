@@ -29,6 +29,20 @@ struct LaneVectors {
 };
 
 template <class D>
+HWY_INLINE hn::Vec<D> dot(const LaneVectors<D>& a, const LaneVectors<D>& b) {
+    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+template <class D>
+HWY_INLINE LaneVectors<D> difference(const LaneVectors<D>& a, const LaneVectors<D>& b) {
+    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+template <class D>
+HWY_INLINE LaneVectors<D> cross(const LaneVectors<D>& a, const LaneVectors<D>& b) {
+    return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
+            hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
+}
+
+template <class D>
 HWY_INLINE LaneVectors<D> transformed_vectors(D d, const M44f& m, const LaneVectors<D>& v) {
     const auto component = [&](int k) HWY_ATTR {
         return hn::Add(hn::Add(hn::Mul(v.x, hn::Set(d, m[0][k])), hn::Mul(v.y, hn::Set(d, m[1][k]))),
