@@ -60,7 +60,7 @@ struct TestScene {
                    const M44f& camera_from_object = translation(0, 0, 5)) {
         return add(std::vector{std::move(shape)}, std::vector{camera_from_object});
     }
-    TessellationOptions::IsDisplaced is_displaced;
+    TessellationOptions::OfPrimitive is_displaced;
 
     /// Nothing is culled: displacement could bring it into view.
     TestScene& keep_all() {

@@ -49,6 +49,7 @@ struct TessellatedPrimitive {
     size_t first_subpatch = 0;
     float pixels_per_segment = 1;
     bool displaced = false;
+    bool left_whole = false;  ///< it has no subpatches of its own
 
     DiceContext dice_context(const ScreenMetric& metric) const {
         return {placed.get(),       {surface.get(), &surface_edges, &splits.made_lines, &splits.made},
@@ -220,6 +221,7 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
         by_rays ? primitive.attributes->rays.seen() : primitive.attributes->visible_to_camera;
     if (!out.surface || !is_seen || context.is_cancelled()) return;
     out.placed = std::make_unique<PlacedSurface>(*out.surface, primitive, context.motion);
+    if (out.left_whole) return;
     const float displacement_bound = std::max(primitive.attributes->displacement_bound, 0.0f);
     if (!by_rays && is_out_of_view(*out.placed, raster, displacement_bound, kFarthest)) {
         out.splits.culled = static_cast<uint64_t>(out.surface->face_count());
@@ -322,9 +324,14 @@ Tessellation::Tessellation(const RenderContext& context, const TessellationOptio
     const Scene& scene = *context.scene;
     std::vector<TessellatedPrimitive>& primitives = impl_->primitives;
     primitives.resize(scene.primitives.size());
-    for (size_t i = 0; i < primitives.size(); ++i)
-        primitives[i].displaced = scene.primitives[i].attributes->displacement != nullptr ||
-                                  (options.is_displaced && options.is_displaced(static_cast<uint32_t>(i)));
+    const auto is_so = [](const TessellationOptions::OfPrimitive& tells, size_t i) {
+        return tells && tells(static_cast<uint32_t>(i));
+    };
+    for (size_t i = 0; i < primitives.size(); ++i) {
+        primitives[i].displaced =
+            scene.primitives[i].attributes->displacement != nullptr || is_so(options.is_displaced, i);
+        primitives[i].left_whole = is_so(options.is_left_whole, i);
+    }
     if (options.surfaces_of) {
         impl_->shared_grids = options.surfaces_of->impl_->shared_grids;
         for (size_t i = 0; i < primitives.size(); ++i)
@@ -397,10 +404,12 @@ void Tessellation::dice(size_t subpatch, ShadingGrid& grid, DiceScratch& scratch
 int Tessellation::dice_point(const SubpatchPoint& point, ShadingGrid& grid, DiceScratch& scratch) const {
     const SubpatchInfo& info = infos_[point.subpatch];
     const TessellatedPrimitive& p = impl_->primitives[info.primitive];
-    const int vertex = trapeze::dice_point(p.dice_context(impl_->metric),
-                                           p.splits.subpatches[point.subpatch - p.first_subpatch], point.at,
-                                           grid, *scratch.state);
-    grid.primitive_index = info.primitive;
+    const uint32_t primitive = point.primitive.value_or(info.primitive);
+    DiceContext context = p.dice_context(impl_->metric);
+    context.surface = impl_->primitives[primitive].placed.get();
+    const int vertex = trapeze::dice_point(context, p.splits.subpatches[point.subpatch - p.first_subpatch],
+                                           point.at, grid, *scratch.state);
+    grid.primitive_index = primitive;
     grid.ordinal = point.subpatch;
     return vertex;
 }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/depth_height.h"
@@ -31,6 +32,9 @@ struct SubpatchInfo {
 struct SubpatchPoint {
     size_t subpatch = 0;  ///< index in Tessellation::subpatches()
     V2f at{0, 0};
+    /// Whose place and attributes it has, by index in the scene: of the same shape as the subpatch's.
+    /// Nothing: the subpatch's own.
+    std::optional<uint32_t> primitive = {};
 };
 
 /// For whom a scene is split. What rays of shaders meet is neither culled nor foreshortened: every primitive
@@ -48,14 +52,15 @@ class Tessellation;
 
 /// How a scene is split.
 struct TessellationOptions {
-    /// Whether a primitive of the scene, by its index, is displaced though it has no displacement shader.
-    using IsDisplaced = std::function<bool(uint32_t)>;
+    /// Tells something of a primitive of the scene, by its index.
+    using OfPrimitive = std::function<bool(uint32_t)>;
 
     /// Without it Blobbies that ask for depth maps are made as if there were none.
     FindDepthHeight depth_heights;
     /// For lists of subpatches, edges and vertices: of all primitives together, and of each.
     size_t most_bytes = std::numeric_limits<size_t>::max();
-    IsDisplaced is_displaced;
+    OfPrimitive is_displaced;   ///< though it has no displacement shader
+    OfPrimitive is_left_whole;  ///< not split: it is there for SubpatchPoint::primitive alone
     SeenBy seen_by = SeenBy::Camera;
     /// Sides of micropolygons wish to be so long at least, in pixels; the shading rate may say longer.
     float least_side = 0;

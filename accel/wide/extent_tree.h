@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,24 @@
 #include "accel/wide/wide_top.h"
 
 namespace trapeze {
+
+/// 16 children, lane by lane; those that are there come first.
+struct alignas(64) ExtentNode {
+    static constexpr int kChildren = WideNode::kChildren;
+    float low[3][kChildren] = {}, high[3][kChildren] = {};              ///< at shutter open
+    float low_delta[3][kChildren] = {}, high_delta[3][kChildren] = {};  ///< to shutter close
+    /// Of all below a child: the largest |coordinate|, which says how much its bounds are grown for a ray,
+    /// and the largest extent of a micropolygon, which says how far outside of them hits may be. A sky far
+    /// away must not let a ray visit what is near.
+    float coordinate[kChildren] = {}, extent[kChildren] = {};
+    uint32_t link[kChildren] = {};
+    uint32_t count = 0;
+};
+
+/// Which children a ray may meet, a bit for each, and lower bounds of the depths of hits within them; `moves`
+/// false: deltas are 0. As clip() and DepthInterval::meets() for each.
+uint32_t children_met(const ExtentNode& node, bool moves, const FrameRay& frame_ray, const TraceRay& ray,
+                      float* depths);
 
 /// Things are known by their numbers, 0 to size - 1. Immutable: threads share it.
 class ExtentTree {
@@ -30,8 +49,7 @@ class ExtentTree {
     }
 
     size_t bytes() const {
-        return sizeof(*this) + nodes_.capacity() * (sizeof(WideChildren) + sizeof(ChildrenLargest)) +
-               unbounded_.capacity() * 4;
+        return sizeof(*this) + nodes_.capacity() * sizeof(ExtentNode) + unbounded_.capacity() * 4;
     }
 
   private:
@@ -39,29 +57,19 @@ class ExtentTree {
         float depth;
         uint32_t link;
     };
-    /// Of all below a child: the largest |coordinate|, which says how much its bounds are grown for a ray,
-    /// and the largest extent of a micropolygon, which says how far outside of them hits may be. A sky far
-    /// away must not let a ray visit what is near.
-    struct Largest {
-        float coordinate = 0, extent = 0;
-    };
-    using ChildrenLargest = std::array<Largest, WideNode::kChildren>;
 
     /// Children are sorted by depth, for a thing that is seen may have to be made, beside which sorting is
     /// nothing. Each is compared with the range again when its turn comes.
     template <class See>
     void visit_node(uint32_t number, const FrameRay& frame_ray, TraceRay& ray, const See& see) const {
-        const WideChildren& node = nodes_[number];
-        std::array<Met, WideNode::kChildren> met;
+        const ExtentNode& node = nodes_[number];
+        alignas(64) float depths[ExtentNode::kChildren];
+        std::array<Met, ExtentNode::kChildren> met;
         int count = 0;
-        for (int i = 0; i < node.count; ++i) {
-            const EndBoxes& box = node.child[i].box;
-            const Largest& largest = largest_[number][static_cast<size_t>(i)];
-            const float pad = ray.rounding(largest.coordinate);
-            float depth;
-            if (clip(frame_ray, key_box(box.at[0]), key_box(box.at[1]), ray.axis.time, pad)
-                    .meets(ray, largest.extent + pad, depth))
-                met[count++] = {depth, node.child[i].link};
+        for (uint32_t bits = children_met(node, moves_, frame_ray, ray, depths); bits != 0;
+             bits &= bits - 1) {
+            const int i = std::countr_zero(bits);
+            met[count++] = {depths[i], node.link[i]};
         }
         std::sort(met.begin(), met.begin() + count,
                   [](const Met& a, const Met& b) { return a.depth < b.depth; });
@@ -73,15 +81,9 @@ class ExtentTree {
         }
     }
 
-    static KeyBox key_box(const KeyBounds& bounds) {
-        KeyBox box;
-        for (int k = 0; k < 3; ++k) box.low[k] = bounds.low[k], box.high[k] = bounds.high[k];
-        return box;
-    }
-
-    std::vector<WideChildren> nodes_;  ///< a node comes before those below it
-    std::vector<ChildrenLargest> largest_;
+    std::vector<ExtentNode> nodes_;  ///< a node comes before those below it
     std::vector<uint32_t> unbounded_;
+    bool moves_ = false;
 };
 
 /// The extent of a grid alone, for rays in any direction.

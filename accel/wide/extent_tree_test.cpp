@@ -3,11 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <limits>
 #include <random>
 #include <set>
 
+#include "core/simd/targets_harness.h"
+
 namespace trapeze {
 namespace {
+
+using testing::for_each_target;
 
 GridExtent box(const V3f& middle, float half, float largest_micropolygon) {
     GridExtent extent{};
@@ -82,6 +89,58 @@ TEST(ExtentTree, WhatIsFarAwayDoesNotWidenWhatIsNear) {
     const ExtentTree tree(extents);
     const std::set<uint32_t> found = visited(tree, ray_of(V3f(0, 0, 0), V3f(1, 0, 0), {0, 5.5f}));
     EXPECT_EQ(found, (std::set<uint32_t>{0, 1, 2, 3, 4}));
+}
+
+/// Next to clip() and meets(), child by child, on every instruction set: where things move, where rays are
+/// parallel to axes, and in nodes of any number of children.
+TEST(ExtentTree, ChildrenAreMetAsOneByOne) {
+    std::minstd_rand bits;
+    const auto number = [&](float low, float high) {
+        return std::uniform_real_distribution<float>(low, high)(bits);
+    };
+    int met = 0, missed = 0;
+    for (int round = 0; round < 3000; ++round) {
+        ExtentNode node;
+        node.count = static_cast<uint32_t>(round % (ExtentNode::kChildren + 1));
+        const bool moves = round % 2 == 0;
+        std::array<KeyBox, ExtentNode::kChildren> from, to;
+        for (size_t i = 0; i < node.count; ++i) {
+            node.coordinate[i] = number(0, 20), node.extent[i] = number(0, .1f), node.link[i] = kGridLink;
+            for (int k = 0; k < 3; ++k) {
+                from[i].low[k] = number(-10, 9), from[i].high[k] = from[i].low[k] + number(0, 8);
+                node.low[k][i] = from[i].low[k], node.high[k][i] = from[i].high[k];
+                to[i].low[k] = from[i].low[k] + (moves ? number(-2, 2) : 0);
+                to[i].high[k] = to[i].low[k] + from[i].high[k] - from[i].low[k];
+                if (!moves) to[i].high[k] = from[i].high[k];
+                node.low_delta[k][i] = to[i].low[k] - from[i].low[k];
+                node.high_delta[k][i] = to[i].high[k] - from[i].high[k];
+            }
+        }
+        const V3f origin(number(-12, 12), number(-12, 12), number(-12, 12));
+        V3f direction = V3f(number(-5, 5), number(-5, 5), number(-5, 5)) - origin;
+        if (round % 5 == 0) direction[round % 3] = 0;
+        const float min = round % 3 == 0 ? 0.0f : number(0, 5);
+        const TraceRay ray = TraceRay::turned(
+            axis_ray({origin, direction, number(0, 1)}),
+            {min, round % 4 == 0 ? std::numeric_limits<float>::infinity() : min + number(0, 15)});
+        const FrameRay frame_ray(ray);
+        for_each_target([&] {
+            alignas(64) float depths[ExtentNode::kChildren];
+            const uint32_t found = children_met(node, moves, frame_ray, ray, depths);
+            ASSERT_EQ(found >> node.count, 0u);
+            for (size_t i = 0; i < node.count; ++i) {
+                const float pad = ray.rounding(node.coordinate[i]);
+                float depth;
+                const bool expected = clip(frame_ray, from[i], to[i], ray.axis.time, pad)
+                                          .meets(ray, node.extent[i] + pad, depth);
+                ASSERT_EQ((found >> i & 1) != 0, expected) << round;
+                ASSERT_EQ(expected ? depths[i] : depth, depth) << round;
+                ++(expected ? met : missed);
+            }
+        });
+    }
+    EXPECT_GT(met, 3000);
+    EXPECT_GT(missed, 20000);
 }
 
 TEST(ExtentTree, DepthsAreBoundsAndRangesMayBeDrawnIn) {

@@ -188,7 +188,9 @@ struct Primitive {
     /// camera_from_object at 1 or 2^m + 1 evenly spaced keys of the shutter.
     std::vector<M44f> camera_from_object;
     SourceLocation location;
-    int solid = -1;  ///< index of the leaf in Scene::solids that it bounds; -1: no part of a solid
+    int solid = -1;     ///< index of the leaf in Scene::solids that it bounds; -1: no part of a solid
+    int instance = -1;  ///< number of the ObjectInstance that it came with, whose primitives follow each
+                        ///< other; -1: with none
     std::shared_ptr<const LightInstance>
         emitter;  ///< the light that it is a part of the shape of; null: none
 

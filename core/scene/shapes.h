@@ -140,6 +140,13 @@ struct Shape {
     ParameterList variables;
 };
 
+/// Whether one shape in different places has different surfaces: it faces the camera, or is as fine as the
+/// screen wants it.
+inline bool depends_on_view(const Topology& topology) {
+    return std::holds_alternative<Curves>(topology) || std::holds_alternative<Points>(topology) ||
+           std::holds_alternative<Blobby>(topology);
+}
+
 /// How many values a variable of each class has on a primitive.
 struct VariableCounts {
     int uniform = 1, varying = 1, vertex = 1, face_varying = 1;

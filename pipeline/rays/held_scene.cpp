@@ -5,7 +5,7 @@
 #include "core/scene/poses.h"
 
 namespace trapeze {
-std::unique_ptr<const Scene> held_scene(const Scene& scene) {
+std::unique_ptr<Scene> held_scene(const Scene& scene) {
     if (scene.held_from_camera.empty()) return nullptr;
     auto copy = std::make_unique<Scene>(scene);
     for (Primitive& primitive : copy->primitives)

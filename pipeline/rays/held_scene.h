@@ -10,7 +10,7 @@ namespace trapeze {
 
 /// A copy in which primitives have their places in camera space at shutter open at all times; null where the
 /// camera does not move. Those that stand still in the world stand still in it. Geometry is shared.
-std::unique_ptr<const Scene> held_scene(const Scene& scene);
+std::unique_ptr<Scene> held_scene(const Scene& scene);
 
 /// Whether rays leave at any other time than shutter open.
 bool rays_sample_motion(const RenderContext& context);

@@ -18,19 +18,30 @@ size_t surfels_of(const GridShape& shape) {
     return static_cast<size_t>(blocks(shape.nu) * blocks(shape.nv));
 }
 
+/// A grid where it is met.
+struct PlacedGrid {
+    const Grid& grid;
+    const ObjectPlace* place;  ///< null: in camera space
+
+    V3f vertex(int i, int j) const {
+        const V3f P = grid.vertex(i, j, 0);
+        return place ? place->to_camera(P, 0) : P;
+    }
+};
+
 /// Sums over the micropolygons of a block.
 struct SurfelSums {
     V3f place{0, 0, 0}, vector_area{0, 0, 0};
     float area = 0, hiding_area = 0;
 
-    void add(const Grid& grid, int u, int v) {
+    void add(const PlacedGrid& placed, int u, int v) {
         V3f middle(0), opacity(0);
         for (int corner = 0; corner < 4; ++corner) {
             const int i = u + (corner & 1), j = v + (corner >> 1);
-            middle += grid.vertex(i, j, 0) * 0.25f, opacity += grid.opacity(i, j) * 0.25f;
+            middle += placed.vertex(i, j) * 0.25f, opacity += placed.grid.opacity(i, j) * 0.25f;
         }
-        const V3f across = grid.vertex(u + 1, v + 1, 0) - grid.vertex(u, v, 0);
-        const V3f other = grid.vertex(u, v + 1, 0) - grid.vertex(u + 1, v, 0);
+        const V3f across = placed.vertex(u + 1, v + 1) - placed.vertex(u, v);
+        const V3f other = placed.vertex(u, v + 1) - placed.vertex(u + 1, v);
         const V3f own = across.cross(other) * 0.5f;
         const float size = own.length();
         area += size, vector_area += own, place += middle * size;
@@ -38,46 +49,83 @@ struct SurfelSums {
     }
 };
 
-/// The first micropolygon's.
-uint64_t surfel_id(uint32_t subpatch, int u, int v) {
-    return MicropolygonId{subpatch, static_cast<uint8_t>(u), static_cast<uint8_t>(v)}.packed();
+/// The first micropolygon's, and above it the number of the place, or 0. Subpatches are as many as a tree
+/// tells apart (WideTree::kMaxGrids).
+constexpr int kPlaceShift = 32;
+
+uint64_t surfel_id(uint32_t subpatch, int u, int v, size_t place_number) {
+    return MicropolygonId{subpatch, static_cast<uint8_t>(u), static_cast<uint8_t>(v)}.packed() |
+           uint64_t{place_number} << kPlaceShift;
+}
+
+/// A subpatch where it is met. Places have numbers from 1 on; 0 is camera space.
+struct SurfelSource {
+    uint32_t subpatch;
+    uint32_t place_number;
+};
+
+/// Those of shared objects once for each instance.
+std::vector<SurfelSource> sources_of(const RayDicer& dicer, const std::function<bool(uint32_t)>& wanted) {
+    const std::vector<SubpatchInfo>& subpatches = dicer.tessellation().subpatches();
+    const SharedObjects& shared = dicer.shared();
+    std::vector<std::vector<uint32_t>> places(shared.objects.size());
+    for (uint32_t i = 0; i < shared.places.size(); ++i) places[shared.places[i].object].push_back(i + 1);
+    std::vector<SurfelSource> sources;
+    for (uint32_t i = 0; i < subpatches.size(); ++i) {
+        if (!wanted(subpatches[i].primitive)) continue;
+        const int object = shared.object_of(subpatches[i].primitive);
+        if (object < 0) sources.push_back({i, 0});
+        if (object >= 0)
+            for (const uint32_t number : places[static_cast<size_t>(object)]) sources.push_back({i, number});
+    }
+    return sources;
 }
 
 /// The discs of a grid, from number `at` on. Blocks without an area, or that are not seen, stay without one.
-void put(const Grid& grid, bool reversed, Surfels& surfels, size_t at) {
+void put(const RayDicer& dicer, const Grid& grid, const SurfelSource& source, Surfels& surfels, size_t at) {
+    const bool reversed = dicer.attributes(grid.primitive).reverse_orientation;
+    const PlacedGrid placed{
+        grid, source.place_number > 0 ? &dicer.shared().places[source.place_number - 1] : nullptr};
     for (int v = 0; v < grid.shape.nv; v += kSurfelSide)
         for (int u = 0; u < grid.shape.nu; u += kSurfelSide, ++at) {
             SurfelSums sums;
             for (int j = v; j < std::min<int>(v + kSurfelSide, grid.shape.nv); ++j)
-                for (int i = u; i < std::min<int>(u + kSurfelSide, grid.shape.nu); ++i) sums.add(grid, i, j);
+                for (int i = u; i < std::min<int>(u + kSurfelSide, grid.shape.nu); ++i)
+                    sums.add(placed, i, j);
             surfels.positions[at] = sums.area > 0 ? sums.place / sums.area : V3f(0);
             surfels.normals[at] = sums.vector_area.normalized() * (reversed ? -1.0f : 1.0f);
             surfels.areas[at] = sums.hiding_area;
-            surfels.ids[at] = surfel_id(static_cast<uint32_t>(grid.ordinal), u, v);
+            surfels.ids[at] = surfel_id(source.subpatch, u, v, source.place_number);
             const int u1 = std::min<int>(u + kSurfelSide, grid.shape.nu);
             const int v1 = std::min<int>(v + kSurfelSide, grid.shape.nv);
-            surfels.quads[at] = {grid.vertex(u, v, 0), grid.vertex(u1, v, 0), grid.vertex(u1, v1, 0),
-                                 grid.vertex(u, v1, 0)};
+            surfels.quads[at] = {placed.vertex(u, v), placed.vertex(u1, v), placed.vertex(u1, v1),
+                                 placed.vertex(u, v1)};
         }
 }
 
 }  // namespace
 
 int dice_surfel(const RayDicer& dicer, uint64_t id, ShadingGrid& grid) {
-    const MicropolygonId first = MicropolygonId::unpack(id);
-    const GridShape shape = dicer.tessellation().subpatches()[first.grid].shape;
+    const MicropolygonId first = MicropolygonId::unpack(id & ((uint64_t{1} << kPlaceShift) - 1));
+    const SubpatchInfo& subpatch = dicer.tessellation().subpatches()[first.grid];
+    const GridShape shape = subpatch.shape;
+    uint32_t primitive = subpatch.primitive;
+    if (const auto number = static_cast<size_t>(id >> kPlaceShift); number > 0)
+        primitive = dicer.shared().primitive_at(dicer.shared().places[number - 1], primitive);
     const auto middle = [](int at, int end) {
         return static_cast<float>(at + std::min(at + kSurfelSide, end)) / static_cast<float>(2 * end);
     };
-    return dicer.make_point({first.grid, {middle(first.u, shape.nu), middle(first.v, shape.nv)}}, grid);
+    return dicer.make_point({first.grid, {middle(first.u, shape.nu), middle(first.v, shape.nv)}, primitive},
+                            grid);
 }
 
 std::optional<Surfels> make_surfels(const RayDicer& dicer, const std::function<bool(uint32_t)>& wanted,
                                     size_t most_bytes) {
     const std::vector<SubpatchInfo>& subpatches = dicer.tessellation().subpatches();
-    std::vector<size_t> first(subpatches.size() + 1, 0);
-    for (size_t i = 0; i < subpatches.size(); ++i)
-        first[i + 1] = first[i] + (wanted(subpatches[i].primitive) ? surfels_of(subpatches[i].shape) : 0);
+    const std::vector<SurfelSource> sources = sources_of(dicer, wanted);
+    std::vector<size_t> first(sources.size() + 1, 0);
+    for (size_t i = 0; i < sources.size(); ++i)
+        first[i + 1] = first[i] + surfels_of(subpatches[sources[i].subpatch].shape);
     Surfels surfels;
     if (first.back() > most_bytes / (2 * sizeof(V3f) + sizeof(float) + sizeof(SurfelQuad) + sizeof(uint64_t)))
         return {};
@@ -87,12 +135,11 @@ std::optional<Surfels> make_surfels(const RayDicer& dicer, const std::function<b
     // Who waits for it may hold what other tasks of the frame want.
     tbb::this_task_arena::isolate([&] {
         tbb::parallel_for(
-            tbb::blocked_range<size_t>(0, subpatches.size(), kSurfelGrain), [&](const auto& range) {
+            tbb::blocked_range<size_t>(0, sources.size(), kSurfelGrain), [&](const auto& range) {
                 for (size_t i = range.begin(); i != range.end() && !dicer.context().is_cancelled(); ++i) {
-                    if (first[i] == first[i + 1]) continue;
                     GridArena passing(1);
-                    const Grid grid = dicer.make(i, passing);
-                    put(grid, dicer.attributes(grid.primitive).reverse_orientation, surfels, first[i]);
+                    const Grid grid = dicer.make(sources[i].subpatch, passing);
+                    put(dicer, grid, sources[i], surfels, first[i]);
                 }
             });
     });

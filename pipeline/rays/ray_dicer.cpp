@@ -9,18 +9,11 @@
 namespace trapeze {
 namespace {
 
-RenderContext of_rays(const RenderContext& context, const Scene* held) {
+RenderContext of_rays(const RenderContext& context, const Scene* copy) {
     RenderContext own = context;
     own.motion = rays_sample_motion(context);
-    if (held) own.scene = held;
+    if (copy) own.scene = copy;
     return own;
-}
-
-TessellationOptions how_to_split(const Shading& shading, size_t most_bytes) {
-    TessellationOptions options;
-    options.depth_heights = shading.depth_heights(), options.is_displaced = shading.displacing_surfaces();
-    options.most_bytes = most_bytes, options.seen_by = SeenBy::Rays;
-    return options;
 }
 
 TessellationOptions coarser(TessellationOptions options, float least_side, const Tessellation& surfaces_of) {
@@ -41,21 +34,50 @@ struct RayDicer::Scratches {
     tbb::enumerable_thread_specific<DiceScratch> of_points;
 };
 
+/// Models come behind the scene's own primitives.
+std::shared_ptr<const RayDicer::SceneForRays> RayDicer::make_scene(const RenderContext& context,
+                                                                   const Shading& shading) {
+    const bool moves = rays_sample_motion(context);
+    auto made = std::make_shared<SceneForRays>();
+    std::unique_ptr<Scene> copy = moves ? held_scene(*context.scene) : nullptr;
+    made->shared = share_objects(copy ? *copy : *context.scene, context.camera, moves,
+                                 {[&](uint32_t primitive) { return shading.keeps_opacity(primitive); },
+                                  shading.displacing_surfaces()});
+    const std::vector<Primitive>& models = made->shared.models;
+    if (!models.empty() && !copy) copy = std::make_unique<Scene>(*context.scene);
+    if (copy) copy->primitives.insert(copy->primitives.end(), models.begin(), models.end());
+    made->copy = std::move(copy);
+    return made;
+}
+
+TessellationOptions RayDicer::how_to_split(size_t most_bytes) const {
+    TessellationOptions options;
+    options.depth_heights = shading_.depth_heights();
+    options.is_displaced = [displaces = shading_.displacing_surfaces(), this](uint32_t number) {
+        return displaces(shared().own(number));
+    };
+    options.is_left_whole = [this](uint32_t number) {
+        return number < shared().is_shared.size() && shared().is_shared[number];
+    };
+    options.most_bytes = most_bytes, options.seen_by = SeenBy::Rays;
+    return options;
+}
+
 RayDicer::RayDicer(const RenderContext& context, const Shading& shading, size_t most_bytes)
-    : held_(rays_sample_motion(context) ? held_scene(*context.scene) : nullptr),
-      context_(of_rays(context, held_.get())),
+    : scene_(make_scene(context, shading)),
+      context_(of_rays(context, scene_->copy.get())),
       shading_(shading),
-      tessellation_(context_, how_to_split(shading, most_bytes)),
+      tessellation_(context_, how_to_split(most_bytes)),
       scratches_(std::make_unique<Scratches>()) {
-    for (uint32_t i = 0; i < context_.scene->primitives.size(); ++i)
+    for (uint32_t i = 0; i < shared().is_shared.size(); ++i)
         keeps_opacity_.push_back(shading.keeps_opacity(i));
 }
 
 RayDicer::RayDicer(const RayDicer& finest, float least_side, size_t most_bytes)
-    : held_(finest.held_),
+    : scene_(finest.scene_),
       context_(finest.context_),
       shading_(finest.shading_),
-      tessellation_(context_, coarser(how_to_split(shading_, most_bytes), least_side, finest.tessellation_)),
+      tessellation_(context_, coarser(how_to_split(most_bytes), least_side, finest.tessellation_)),
       keeps_opacity_(finest.keeps_opacity_),
       scratches_(std::make_unique<Scratches>()) {}
 
@@ -65,6 +87,7 @@ Grid RayDicer::make(size_t subpatch, GridArena& arena) const {
     Scratches::Scratch& scratch = scratches_->of_grids.local();
     ShadingGrid* const grid = &scratch.grid;
     tessellation_.dice(subpatch, *grid, scratch.dice, DiceFor::Hits);
+    grid->primitive_index = shared().own(grid->primitive_index);
     grid->aovs.clear();
     shading_.displace({&grid, 1}, scratch.shade);
     PackOptions options;

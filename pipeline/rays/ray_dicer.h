@@ -8,6 +8,7 @@
 #include "core/grid.h"
 #include "core/scene/ray_scene.h"
 #include "core/scene/render_context.h"
+#include "pipeline/rays/shared_objects.h"
 #include "shade/shading.h"
 #include "tessellate/tessellate.h"
 
@@ -31,15 +32,28 @@ class RayDicer {
     }
     /// Whether hits of a primitive have its own opacity, whatever its shader.
     bool keeps_opacity(uint32_t primitive) const { return keeps_opacity_[primitive]; }
+    /// The objects whose instances have grids together. context().scene has their models behind the scene's
+    /// own primitives: subpatches are of these.
+    const SharedObjects& shared() const { return scene_->shared; }
 
-    /// Dices, displaces and packs a subpatch, by its number; Grid::ordinal is that number.
+    /// Dices, displaces and packs a subpatch, by its number; Grid::ordinal is that number. Grid::primitive is
+    /// one that the scene has itself: of a shared object that which stands for all instances'.
     Grid make(size_t subpatch, GridArena& arena) const;
     /// Tessellation::dice_point().
     int make_point(const SubpatchPoint& point, ShadingGrid& grid) const;
 
   private:
-    std::shared_ptr<const Scene> held_;  ///< null: the camera does not move
-    RenderContext context_;              ///< of held_, if there is one
+    /// Without the camera's motion, and with models.
+    struct SceneForRays {
+        SharedObjects shared;
+        std::unique_ptr<const Scene> copy;  ///< null: the scene itself will do
+    };
+    static std::shared_ptr<const SceneForRays> make_scene(const RenderContext& context,
+                                                          const Shading& shading);
+    TessellationOptions how_to_split(size_t most_bytes) const;
+
+    std::shared_ptr<const SceneForRays> scene_;
+    RenderContext context_;  ///< of that scene
     const Shading& shading_;
     Tessellation tessellation_;
     std::vector<bool> keeps_opacity_;  ///< of primitives: Shading::keeps_opacity()

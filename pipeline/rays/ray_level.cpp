@@ -1,8 +1,7 @@
 #include "pipeline/rays/ray_level.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
+#include <tuple>
 
 #include "pipeline/rays/make_all_grids.h"
 #include "pipeline/rays/whole_ray_grids.h"
@@ -10,264 +9,235 @@
 namespace trapeze {
 namespace {
 
-/// Bits of the kinds of rays that see a primitive.
-unsigned mask_of(const RayAttributes& rays) {
-    const auto bit = [](RayKind kind) { return 1u << static_cast<unsigned>(kind); };
-    return (rays.diffuse ? bit(RayKind::Diffuse) : 0) | (rays.specular ? bit(RayKind::Specular) : 0) |
-           (rays.transmission ? bit(RayKind::Transmission) : 0);
-}
-
-bool sees(RayKind kind, unsigned mask) {
-    return (mask >> static_cast<unsigned>(kind) & 1) != 0;
-}
-
-/// Distances along a ray of unit length become depths along its largest axis.
-float depth_scale(const V3f& direction) {
-    return std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
-}
-
-/// A segment in the form in which grids are asked.
-RangedRay ranged(const RaySegment& ray) {
-    const float scale = depth_scale(ray.direction);
-    return {{ray.origin, ray.direction, ray.time}, {ray.min * scale, ray.max * scale}, ray.left.most * scale};
-}
-
 /// The share of the memory that is for grids; the rest is for trees over them.
 constexpr double kGridShare = 0.8;
+
+/// What some kinds of rays meet of one space, on its way into a GroupedRayGrids.
+struct Gathered {
+    Grids grids;
+    std::vector<SubpatchExtent> extents;  ///< of grids that are not kept
+    size_t bytes = 0;                     ///< of these
+};
+
+/// By kinds of rays.
+using GatheredGroups = std::array<Gathered, GroupedRayGrids::kMasks>;
+
+void unite(std::optional<GridExtent>& all, const GridExtent& one) {
+    all = all ? united(*all, one) : one;
+}
+
+/// The nearer hit; of equally near ones that of the place that comes first.
+bool is_in_front(const RaySurfaceHit& hit, uint32_t place, const std::optional<RaySurfaceHit>& nearest,
+                 int64_t nearest_place) {
+    if (!nearest) return true;
+    return std::tuple(hit.distance, int64_t{place}) < std::tuple(nearest->distance, nearest_place);
+}
+
+/// Hits as near as the nearest are wanted, too, which round differently in another space.
+RaySegment beyond(const RaySegment& rest) {
+    RaySegment ray = rest;
+    ray.max *= 1 + 0x1p-20f;
+    return ray;
+}
+
+std::optional<bool> is_blocked(InTheWay met) {
+    if (met == InTheWay::Layers) return {};
+    return met == InTheWay::Opaque;
+}
 
 }  // namespace
 
 RayLevel::RayLevel(const RenderContext& context, const Shading& shading, size_t most_bytes)
-    : dicer_(context, shading, most_bytes) {}
+    : dicer_(context, shading, most_bytes), hits_(dicer_, level_) {}
 
 RayLevel::RayLevel(const RayLevel& finest, int level, size_t most_bytes)
-    : level_(static_cast<uint8_t>(level)), dicer_(finest.dicer_, level_side(level), most_bytes) {}
+    : level_(static_cast<uint8_t>(level)),
+      dicer_(finest.dicer_, level_side(level), most_bytes),
+      hits_(dicer_, level_) {}
 
-/// Sorts what all rays may meet by the kinds of rays that see it.
+/// Sorts what all rays may meet by its space and by the kinds of rays that see it.
 void RayLevel::make_grids(size_t most_bytes) {
     const auto most_of_grids = static_cast<size_t>(kGridShare * static_cast<double>(most_bytes));
     AllRayGrids all = make_all_grids(dicer_, most_of_grids);
     if (dicer_.context().is_cancelled()) return;
     arenas_ = std::move(all.arenas);
-    std::array<Grids, kMasks> grids;
-    std::array<std::vector<SubpatchExtent>, kMasks> extents;
-    std::array<size_t, kMasks> bytes{};
+    const SharedObjects& shared = dicer_.shared();
+    std::vector<GatheredGroups> gathered(1 + shared.objects.size());  // that of camera space first
+    std::vector<std::optional<GridExtent>> extents(shared.objects.size());
+    size_t all_bytes = 0;
     for (size_t i = 0; i < dicer_.tessellation().subpatches().size(); ++i) {
-        const SubpatchInfo& info = dicer_.tessellation().subpatches()[i];
-        const unsigned mask = mask_of(dicer_.attributes(info.primitive).rays);
+        const uint32_t primitive = dicer_.tessellation().subpatches()[i].primitive;
+        const int object = shared.object_of(primitive);
+        Gathered& group = gathered[static_cast<size_t>(object + 1)]
+                                  [GroupedRayGrids::mask_of(dicer_.attributes(primitive).rays)];
         if (all.are_kept)
-            grids[mask].grids.push_back(all.grids[i]);
+            group.grids.grids.push_back(all.grids[i]);
         else
-            extents[mask].push_back(all.extents[i]), bytes[mask] += all.extents[i].bytes;
+            group.extents.push_back(all.extents[i]), group.bytes += all.extents[i].bytes;
+        all_bytes += all.are_kept ? 0 : all.extents[i].bytes;
+        if (object >= 0)
+            unite(extents[static_cast<size_t>(object)],
+                  all.are_kept ? extent_of(all.grids[i]) : all.extents[i].extent);
     }
-    const size_t all_bytes = std::accumulate(bytes.begin(), bytes.end(), size_t{0});
-    for (unsigned mask = 0; mask < kMasks; ++mask) {
-        Group& group = groups_[mask];
-        if (!grids[mask].grids.empty()) group.grids = std::make_unique<WholeRayGrids>(std::move(grids[mask]));
-        if (extents[mask].empty()) continue;
-        const double share = kBrickShare * static_cast<double>(bytes[mask]) / static_cast<double>(all_bytes);
-        auto bricks = std::make_unique<RayBricks>(
-            dicer_, extents[mask], static_cast<size_t>(share * static_cast<double>(most_bytes)));
-        group.bricks = bricks.get();
-        group.grids = std::move(bricks);
+    objects_.resize(shared.objects.size());
+    for (size_t space = 0; space < gathered.size(); ++space) {
+        GroupedRayGrids& grids = space == 0 ? own_ : objects_[space - 1];
+        for (unsigned mask = 0; mask < GroupedRayGrids::kMasks; ++mask) {
+            Gathered& group = gathered[space][mask];
+            if (!group.grids.grids.empty())
+                grids.set(mask, std::make_unique<WholeRayGrids>(std::move(group.grids)));
+            if (group.extents.empty()) continue;
+            const double share =
+                kBrickShare * static_cast<double>(group.bytes) / static_cast<double>(all_bytes);
+            grids.set(mask, std::make_unique<RayBricks>(
+                                dicer_, group.extents,
+                                static_cast<size_t>(share * static_cast<double>(most_bytes))));
+        }
     }
+    if (!shared.places.empty()) places_.emplace(shared.places, extents);
 }
 
 bool RayLevel::has(RayKind kind) const {
-    for (unsigned mask = 0; mask < kMasks; ++mask)
-        if (sees(kind, mask) && groups_[mask].grids) return true;
-    return false;
+    return own_.has(kind) ||
+           std::ranges::any_of(objects_, [&](const GroupedRayGrids& object) { return object.has(kind); });
 }
 
 bool RayLevel::is_seen(uint32_t primitive, RayKind kind) const {
-    return sees(kind, mask_of(dicer_.attributes(primitive).rays));
+    const unsigned mask = GroupedRayGrids::mask_of(dicer_.attributes(primitive).rays);
+    return (mask >> static_cast<unsigned>(kind) & 1) != 0;
 }
 
 bool RayLevel::makes_bricks() const {
-    return std::ranges::any_of(groups_, [](const Group& group) { return group.bricks != nullptr; });
+    return own_.makes_bricks() || std::ranges::any_of(objects_, &GroupedRayGrids::makes_bricks);
 }
 
 size_t RayLevel::bytes() const {
-    size_t bytes = 0;
+    size_t bytes = own_.bytes() + (places_ ? places_->bytes() : 0);
     for (const GridArena& arena : arenas_) bytes += arena.bytes();
-    for (const Group& group : groups_) bytes += group.grids ? group.grids->bytes() : 0;
+    for (const GroupedRayGrids& object : objects_) bytes += object.bytes();
     return bytes;
 }
 
 uint64_t RayLevel::micropolygons_made() const {
-    uint64_t count = micropolygon_count();
-    for (const Group& group : groups_) count += group.bricks ? group.bricks->micropolygons_made() : 0;
+    uint64_t count = micropolygon_count() + own_.micropolygons_made();
+    for (const GroupedRayGrids& object : objects_) count += object.micropolygons_made();
     return count;
 }
 
 std::optional<RaySurfaceHit> RayLevel::closest(const RaySegment& ray, RayKind kind) const {
-    std::optional<RaySurfaceHit> nearest;
+    std::optional<RaySurfaceHit> nearest = own_.closest(hits_, ray, PlacedRay(ray), kind);
+    if (!places_) return nearest;
+    int64_t nearest_place = -1;
     RaySegment rest = ray;
-    for (uint32_t mask = 0; mask < kMasks; ++mask) {
-        if (!sees(kind, mask) || !groups_[mask].grids) continue;
-        const std::optional<RaySurfaceHit> hit = closest_in(*groups_[mask].grids, rest);
-        if (!hit || (nearest && hit->distance >= nearest->distance)) continue;
-        nearest = hit;
-        rest.max = hit->distance;
-    }
+    if (nearest) rest.max = nearest->distance;
+    places_->visit(rest, [&](uint32_t number, const PlacedRay& placed) {
+        const GroupedRayGrids& object = objects_[placed.place->object];
+        const std::optional<RaySurfaceHit> hit = object.closest(hits_, beyond(rest), placed, kind);
+        if (hit && hit->distance <= ray.max && is_in_front(*hit, number, nearest, nearest_place)) {
+            nearest = hit, nearest_place = number;
+            rest.max = hit->distance;
+        }
+        return rest.max;
+    });
     return nearest;
 }
 
-std::optional<RaySurfaceHit> RayLevel::closest_in(const RayGrids& grids, const RaySegment& ray) const {
-    const float scale = depth_scale(ray.direction);
-    auto [space, range, near] = ranged(ray);
-    while (range.min <= range.max) {
-        const std::optional<RayGridHit> found = grids.closest(space, range);
-        if (!found) return {};
-        if (counts(ray, *found)) return hit_of(ray, found->hit.depth / scale, *found);
-        range.min = std::nextafter(found->hit.depth, kInfinity);
-    }
-    return {};
+/// A ray that comes to a place.
+struct RayLevel::Meeting {
+    uint32_t object, place, ray;
+};
+
+/// All meetings of rays and places, object by object.
+std::vector<RayLevel::Meeting> RayLevel::meetings(std::span<const RaySegment> rays) const {
+    std::vector<Meeting> meetings;
+    for (uint32_t i = 0; i < rays.size(); ++i)
+        places_->visit(rays[i], [&](uint32_t number, const PlacedRay& placed) {
+            meetings.push_back({placed.place->object, number, i});
+            return rays[i].max;
+        });
+    std::ranges::sort(meetings, {}, [](const Meeting& meeting) {
+        return std::tuple(meeting.object, meeting.place, meeting.ray);
+    });
+    return meetings;
 }
 
-/// Rays whose nearest hit does not count go on behind it, all together.
-void RayLevel::closest_in(const RayBricks& bricks, std::span<const RaySegment> rays,
-                          std::span<std::optional<RaySurfaceHit>> hits) const {
-    std::vector<RangedRay> asked;
-    for (const RaySegment& ray : rays) asked.push_back(ranged(ray));
-    std::vector<uint32_t> going(rays.size());  // asked[r] is ray going[r]
-    std::iota(going.begin(), going.end(), 0u);
-    while (!going.empty()) {
-        std::vector<bool> counted(going.size(), true);  // the last hit, if there is one
-        std::vector<float> behind(going.size());
-        bricks.closest(asked, [&](size_t r, const RayGridHit& found) {
-            const uint32_t i = going[r];
-            counted[r] = counts(rays[i], found);
-            behind[r] = std::nextafter(found.hit.depth, kInfinity);
-            if (counted[r])
-                hits[i] = hit_of(rays[i], found.hit.depth / depth_scale(rays[i].direction), found);
-            else
-                hits[i].reset();
-        });
-        size_t left = 0;
-        for (size_t r = 0; r < going.size(); ++r) {
-            if (counted[r] || behind[r] > asked[r].range.max) continue;
-            going[left] = going[r], asked[left] = asked[r];
-            asked[left++].range.min = behind[r];
-        }
-        going.resize(left), asked.resize(left);
+/// Calls meet(object, meetings, placed rays), object by object.
+template <class Meet>
+void RayLevel::for_each_object(std::span<const RaySegment> rays, const Meet& meet) const {
+    const std::vector<Meeting> all = meetings(rays);
+    std::vector<PlacedRay> placed;
+    for (size_t first = 0, end; first < all.size(); first = end) {
+        placed.clear();
+        for (end = first; end < all.size() && all[end].object == all[first].object; ++end)
+            placed.emplace_back(rays[all[end].ray], dicer_.shared().places[all[end].place]);
+        meet(objects_[all[first].object], std::span(all).subspan(first, end - first), placed);
     }
 }
 
 void RayLevel::closest(std::span<const RaySegment> rays, RayKind kind,
                        std::span<std::optional<RaySurfaceHit>> hits) const {
-    std::ranges::fill(hits, std::nullopt);
+    std::vector<PlacedRay> placed;
+    for (const RaySegment& ray : rays) placed.emplace_back(ray);
+    own_.closest(hits_, rays, placed, kind, hits);
+    if (!places_) return;
     std::vector<RaySegment> rest(rays.begin(), rays.end());
-    std::vector<std::optional<RaySurfaceHit>> found(rays.size());
-    for (unsigned mask = 0; mask < kMasks; ++mask) {
-        const Group& group = groups_[mask];
-        if (!sees(kind, mask) || !group.grids) continue;
-        std::ranges::fill(found, std::nullopt);
-        if (group.bricks) closest_in(*group.bricks, rest, found);
-        for (size_t i = 0; i < rays.size(); ++i) {
-            if (!group.bricks) found[i] = closest_in(*group.grids, rest[i]);
-            if (!found[i] || (hits[i] && found[i]->distance >= hits[i]->distance)) continue;
-            hits[i] = found[i];
-            rest[i].max = found[i]->distance;
+    for (size_t i = 0; i < rays.size(); ++i)
+        if (hits[i]) rest[i].max = hits[i]->distance;
+    std::vector<int64_t> nearest_place(rays.size(), -1);
+    std::vector<RaySegment> asked;
+    std::vector<std::optional<RaySurfaceHit>> found;
+    for_each_object(rest, [&](const GroupedRayGrids& object, std::span<const Meeting> meetings,
+                              std::span<const PlacedRay> in_places) {
+        asked.clear(), found.assign(meetings.size(), std::nullopt);
+        for (const Meeting& meeting : meetings) asked.push_back(beyond(rest[meeting.ray]));
+        object.closest(hits_, asked, in_places, kind, found);
+        for (size_t k = 0; k < meetings.size(); ++k) {
+            const auto [number, place, i] = meetings[k];
+            if (!found[k] || found[k]->distance > rays[i].max ||
+                !is_in_front(*found[k], place, hits[i], nearest_place[i]))
+                continue;
+            hits[i] = found[k], nearest_place[i] = place;
+            rest[i].max = found[k]->distance;
         }
-    }
+    });
+}
+
+std::optional<bool> RayLevel::blocked(const RaySegment& ray, RayKind kind) const {
+    InTheWay most = own_.in_the_way(ray, PlacedRay(ray), kind);
+    if (places_ && most != InTheWay::Opaque)
+        places_->visit(ray, [&](uint32_t, const PlacedRay& placed) {
+            if (most == InTheWay::Opaque) return -kInfinity;
+            most = std::max(most, objects_[placed.place->object].in_the_way(ray, placed, kind));
+            return most == InTheWay::Opaque ? -kInfinity : ray.max;
+        });
+    return is_blocked(most);
 }
 
 void RayLevel::blocked(std::span<const RaySegment> rays, RayKind kind,
                        std::span<std::optional<bool>> blocked) const {
-    std::vector<RangedRay> asked;
-    std::vector<uint32_t> open;
-    std::vector<InTheWay> met;
-    std::ranges::fill(blocked, std::optional(false));
-    for (unsigned mask = 0; mask < kMasks; ++mask) {
-        const Group& group = groups_[mask];
-        if (!sees(kind, mask) || !group.grids) continue;
-        asked.clear(), open.clear();
+    std::vector<PlacedRay> placed;
+    for (const RaySegment& ray : rays) placed.emplace_back(ray);
+    std::vector<InTheWay> most(rays.size());
+    own_.in_the_way(rays, placed, kind, most);
+    if (places_) {
+        std::vector<RaySegment> open;
+        std::vector<uint32_t> numbers;
         for (uint32_t i = 0; i < rays.size(); ++i)
-            if (blocked[i] != true) asked.push_back(ranged(rays[i])), open.push_back(i);
-        met.resize(asked.size());
-        if (group.bricks) group.bricks->in_the_way(asked, met);
-        for (size_t r = 0; r < asked.size(); ++r) {
-            if (!group.bricks) met[r] = group.grids->in_the_way(asked[r]);
-            if (met[r] == InTheWay::Opaque && !rays[open[r]].only)
-                blocked[open[r]] = true;
-            else if (met[r] != InTheWay::Nothing)
-                blocked[open[r]].reset();
-        }
+            if (most[i] != InTheWay::Opaque) open.push_back(rays[i]), numbers.push_back(i);
+        std::vector<RaySegment> asked;
+        std::vector<InTheWay> met;
+        for_each_object(open, [&](const GroupedRayGrids& object, std::span<const Meeting> meetings,
+                                  std::span<const PlacedRay> in_places) {
+            asked.clear(), met.resize(meetings.size());
+            for (const Meeting& meeting : meetings) asked.push_back(open[meeting.ray]);
+            object.in_the_way(asked, in_places, kind, met);
+            for (size_t k = 0; k < meetings.size(); ++k) {
+                InTheWay& own = most[numbers[meetings[k].ray]];
+                own = std::max(own, met[k]);
+            }
+        });
     }
-}
-
-/// Whether a ray comes to a micropolygon from the outside of its surface.
-bool RayLevel::from_outside(const Grid& grid, const MicropolygonId& id, const RaySegment& ray) const {
-    const Attributes& attributes = dicer_.attributes(grid.primitive);
-    const auto corner = [&](int i, int j) { return grid.vertex(id.u + i, id.v + j, ray.time); };
-    const V3f p00 = corner(0, 0), p11 = corner(1, 1), p10 = corner(1, 0), p01 = corner(0, 1);
-    const V3f normal = (p11 - p00).cross(p01 - p10) * (attributes.reverse_orientation ? -1.0f : 1.0f);
-    return normal.dot(ray.direction) <= 0;
-}
-
-/// Whether a micropolygon's hit counts: one-sided surfaces have no inside, and a ray may want groups or sides
-/// of its own choice.
-bool RayLevel::shows(const Grid& grid, const MicropolygonId& id, const RaySegment& ray) const {
-    using Sides = RayFilter::Sides;
-    const Primitive& primitive = dicer_.context().scene->primitives[grid.primitive];
-    if (primitive.solid >= 0) return true;  // the whole solid has sides
-    const Attributes& attributes = dicer_.attributes(grid.primitive);
-    if (ray.only && !ray.only->admits(attributes.rays.groups)) return false;
-    Sides sides = ray.only ? ray.only->sides : Sides::OfAttributes;
-    if (sides == Sides::OfAttributes) sides = attributes.sides == 1 ? Sides::Front : Sides::Both;
-    if (sides == Sides::Both) return true;
-    return from_outside(grid, id, ray) == (sides == Sides::Front);
-}
-
-/// Whether a hit counts: not where it may be the surface that the ray leaves.
-bool RayLevel::counts(const RaySegment& ray, const RayGridHit& found) const {
-    const MicropolygonId id = MicropolygonId::unpack(found.hit.id);
-    if (found.hit.depth < ray.left.most * depth_scale(ray.direction)) {
-        const auto is_left = [&](int i, int j) {
-            const V3f corner = found.grid->vertex(id.u + i, id.v + j, ray.time);
-            return ray.left.is_left(corner - ray.origin, ray.direction);
-        };
-        if (!is_left(0, 0) && !is_left(1, 0) && !is_left(0, 1) && !is_left(1, 1)) return false;
-    }
-    return shows(*found.grid, id, ray);
-}
-
-RaySurfaceHit RayLevel::hit_of(const RaySegment& ray, float distance, const RayGridHit& found) const {
-    const MicropolygonId id = MicropolygonId::unpack(found.hit.id);
-    const Grid& grid = *found.grid;
-    const TurnedRay turned = axis_ray({ray.origin, ray.direction, ray.time});
-    const QuadWeights weights = hit_weights(
-        turned.ray, grid.quad(id.u, id.v, ray.time, turned.x_plane, turned.y_plane, turned.z_plane));
-    RaySurfaceHit hit;
-    hit.distance = distance;
-    hit.primitive = grid.primitive;
-    hit.attributes = &dicer_.attributes(grid.primitive).rays;
-    hit.from_outside = from_outside(grid, id, ray);
-    hit.level = level_;
-    hit.keeps_opacity = dicer_.keeps_opacity(grid.primitive);
-    hit.color = hit.opacity = V3f(0, 0, 0);
-    for (int corner = 0; corner < 4; ++corner) {
-        const int i = id.u + (corner & 1), j = id.v + (corner >> 1);
-        hit.color += weights.w[corner] * grid.color(i, j);
-        hit.opacity += weights.w[corner] * grid.opacity(i, j);
-    }
-    hit.id = found.hit.id;
-    hit.at = {weights.w[k10] + weights.w[k11], weights.w[k01] + weights.w[k11]};
-    return hit;
-}
-
-std::optional<bool> RayLevel::blocked(const RaySegment& ray, RayKind kind) const {
-    const RangedRay asked = ranged(ray);
-    bool sure = true;
-    for (uint32_t mask = 0; mask < kMasks; ++mask) {
-        const Group& group = groups_[mask];
-        if (!sees(kind, mask) || !group.grids) continue;
-        const InTheWay met = group.grids->in_the_way(asked);
-        if (met == InTheWay::Opaque && !ray.only) return true;
-        sure &= met == InTheWay::Nothing;
-    }
-    return sure ? std::optional(false) : std::nullopt;
+    std::ranges::transform(most, blocked.begin(), is_blocked);
 }
 
 int RayLevel::dice(const RaySurfaceHit& hit, ShadingGrid& grid) const {
@@ -275,7 +245,7 @@ int RayLevel::dice(const RaySurfaceHit& hit, ShadingGrid& grid) const {
     const GridShape shape = dicer_.tessellation().subpatches()[id.grid].shape;
     const V2f at((static_cast<float>(id.u) + hit.at.x) / static_cast<float>(shape.nu),
                  (static_cast<float>(id.v) + hit.at.y) / static_cast<float>(shape.nv));
-    return dicer_.make_point({id.grid, at}, grid);
+    return dicer_.make_point({id.grid, at, hit.primitive}, grid);
 }
 
 }  // namespace trapeze

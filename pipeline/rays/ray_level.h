@@ -1,18 +1,18 @@
 /// One level of the geometry that rays of shaders meet: all primitives that some kind of ray sees, diced with
-/// sides of one length, and trees over them [decision 0033].
+/// sides of one length, and trees over them [decision 0033]. Objects whose instances share grids have theirs
+/// apart, each in its own space [decision 0042].
 #pragma once
 
-#include <array>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "core/scene/ray_scene.h"
 #include "core/scene/render_context.h"
-#include "pipeline/rays/ray_bricks.h"
+#include "pipeline/rays/grouped_ray_grids.h"
 #include "pipeline/rays/ray_dicer.h"
-#include "pipeline/rays/ray_grids.h"
+#include "pipeline/rays/ray_hits.h"
+#include "pipeline/rays/ray_places.h"
 
 namespace trapeze {
 
@@ -54,26 +54,18 @@ class RayLevel {
     size_t bytes() const;
 
   private:
-    /// Primitives that the same kinds of rays see.
-    struct Group {
-        std::unique_ptr<RayGrids> grids;    ///< null: none
-        const RayBricks* bricks = nullptr;  ///< `grids`, where they are made as rays come by
-    };
-    /// A bit for each RayKind.
-    static constexpr unsigned kMasks = 8;
-
-    std::optional<RaySurfaceHit> closest_in(const RayGrids& grids, const RaySegment& ray) const;
-    void closest_in(const RayBricks& bricks, std::span<const RaySegment> rays,
-                    std::span<std::optional<RaySurfaceHit>> hits) const;
-    RaySurfaceHit hit_of(const RaySegment& ray, float distance, const RayGridHit& found) const;
-    bool from_outside(const Grid& grid, const MicropolygonId& id, const RaySegment& ray) const;
-    bool counts(const RaySegment& ray, const RayGridHit& found) const;
-    bool shows(const Grid& grid, const MicropolygonId& id, const RaySegment& ray) const;
+    struct Meeting;
+    std::vector<Meeting> meetings(std::span<const RaySegment> rays) const;
+    template <class Meet>
+    void for_each_object(std::span<const RaySegment> rays, const Meet& meet) const;
 
     const uint8_t level_ = 0;
     RayDicer dicer_;
-    std::vector<GridArena> arenas_;  ///< of grids that are in memory as a whole
-    std::array<Group, kMasks> groups_;
+    RayHits hits_;
+    std::vector<GridArena> arenas_;         ///< of grids that are in memory as a whole
+    GroupedRayGrids own_;                   ///< of primitives that share nothing
+    std::vector<GroupedRayGrids> objects_;  ///< of shared objects, each in its space
+    std::optional<RayPlaces> places_;       ///< of these; nothing where there are none
 };
 
 }  // namespace trapeze

@@ -45,11 +45,4 @@ std::unique_ptr<Surface> make_surface(const Primitive& primitive, Diagnostics& d
     return std::visit(ByTopology{primitive, diagnostics, view}, primitive.shape().topology);
 }
 
-/// Instances of these cannot share a surface: what faces the camera or is as fine as the screen wants is
-/// another shape in another place.
-bool depends_on_view(const Topology& topology) {
-    return std::holds_alternative<Curves>(topology) || std::holds_alternative<Points>(topology) ||
-           std::holds_alternative<Blobby>(topology);
-}
-
 }  // namespace trapeze

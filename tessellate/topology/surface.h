@@ -151,7 +151,5 @@ std::unique_ptr<Surface> make_blobby_surface(const Primitive& primitive, const S
 /// The surface of a primitive, of the kind that its topology asks for.
 std::unique_ptr<Surface> make_surface(const Primitive& primitive, Diagnostics& diagnostics,
                                       const SurfaceView& view = {});
-/// Whether primitives of one shape in different places have different surfaces.
-bool depends_on_view(const Topology& topology);
 
 }  // namespace trapeze

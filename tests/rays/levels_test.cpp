@@ -2,19 +2,12 @@
 /// one to the next.
 #include <gtest/gtest.h>
 
-#include <random>
-
-#include "core/scene/ray_scene.h"
-#include "pipeline/rays/ray_world.h"
-#include "shade/shading.h"
-#include "tests/rays/rays_harness.h"
+#include "tests/rays/ray_world_harness.h"
 
 namespace trapeze::testing {
 namespace {
 
-/// Of levels there are the more the finer the picture is: up to 2, and up to 3, of which the first is as fine
-/// as level 0 where sides are of 4 pixels.
-const std::string kLevels = "Option \"trace\" \"int levels\" 4 Format 256 256 1 ";
+/// Up to 3, of which the first is as fine as level 0 where sides are of 4 pixels.
 const std::string kMoreLevels = "Option \"trace\" \"int levels\" 4 Format 2048 2048 1 ";
 /// 64 x 64 pixels of the smaller picture.
 const std::string kMiddle = "CropWindow .375 .625 .375 .625 ";
@@ -23,57 +16,10 @@ const std::string kFourPixels = "ShadingRate 16 ";
 const std::string kCube = "[4 4 4 4 4 4] [0 1 3 2 5 4 6 7 1 0 4 5 2 3 7 6 0 2 6 4 3 1 5 7] ";
 const std::string kCorners = "\"P\" [-1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 1 1 1] ";
 
-/// What rays meet in a scene of one world.
-class LevelScene {
-  public:
-    explicit LevelScene(const std::string& things, const std::string& options = kLevels,
-                        size_t bytes = size_t{1} << 30) {
-        const WorkFolder folder;
-        folder.write("asks.sl", "surface asks() { Ci = occlusion(P, N, 1); Oi = Os; }");
-        folder.write("a.rib", kPicture + options + "Option \"searchpath\" \"string shader\" [\"" +
-                                  folder.path().string() + "\"] WorldBegin " + kSeen + "Surface \"asks\" " +
-                                  things + "\nWorldEnd\n");
-        const std::vector<std::string> files{(folder / "a.rib").string()};
-        read_rib(files, ReadOptions{}, diagnostics_, [&](Scene&& scene) { scene_ = std::move(scene); });
-        context_ = make_context(*scene_, settings_, diagnostics_);
-        shading_.emplace(context_, *settings_.access);
-        world_.emplace(context_, *shading_, bytes);
-        shading_->set_rays(&*world_);
-        EXPECT_EQ(diagnostics_.count(Severity::Error), 0);
-    }
-
-    const RayWorld& world() const { return *world_; }
-
-  private:
-    Diagnostics diagnostics_;
-    RenderSettings settings_;
-    std::optional<Scene> scene_;
-    RenderContext context_;
-    std::optional<Shading> shading_;
-    std::optional<RayWorld> world_;
-};
-
-/// Numbers that are the same on each run.
-class Numbers {
-  public:
-    float operator()(float low, float high) {
-        return std::uniform_real_distribution<float>(low, high)(bits_);
-    }
-    V3f in_cube(float side) { return V3f((*this)(-1, 1), (*this)(-1, 1), (*this)(-1, 1)) * side; }
-
-  private:
-    std::minstd_rand bits_;
-};
-
-RaySegment ray_to(const V3f& from, const V3f& way, float spread) {
-    RaySegment ray;
-    ray.origin = from, ray.direction = way.normalized(), ray.spread = spread;
-    return ray;
-}
-
 TEST(RayLevels, WideRaysMeetCoarseGeometryFarAway) {
-    const LevelScene fine("Sphere 30 -30 30 360"), large(kFourPixels + "Sphere 30 -30 30 360", kMoreLevels);
-    const auto level_at = [](const LevelScene& scene, float spread) {
+    const RayWorldScene fine("Sphere 30 -30 30 360"),
+        large(kFourPixels + "Sphere 30 -30 30 360", kMoreLevels);
+    const auto level_at = [](const RayWorldScene& scene, float spread) {
         return scene.world().closest(ray_to(V3f(0, 0, 0), V3f(1, .3f, .2f), spread), RayKind::Diffuse)->level;
     };
     // A pixel is 1/128 here, and 21 times as wide there.
@@ -85,7 +31,7 @@ TEST(RayLevels, WideRaysMeetCoarseGeometryFarAway) {
     EXPECT_EQ(level_at(large, .01f), 0);
     EXPECT_EQ(level_at(large, .03f), 2);
     EXPECT_EQ(level_at(large, .1f), 3);
-    const LevelScene one("Sphere 30 -30 30 360", "Format 256 256 1 ");
+    const RayWorldScene one("Sphere 30 -30 30 360", "Format 256 256 1 ");
     EXPECT_EQ(level_at(one, 1), 0);
     EXPECT_GT(fine.world().micropolygon_count(), one.world().micropolygon_count());
     EXPECT_LT(fine.world().micropolygon_count(), one.world().micropolygon_count() * 11 / 10);
@@ -94,10 +40,10 @@ TEST(RayLevels, WideRaysMeetCoarseGeometryFarAway) {
 /// A sphere's micropolygons are nowhere farther from it than their size says.
 TEST(RayLevels, AreTheSameSurface) {
     for (const bool more : {false, true}) {
-        const LevelScene sphere((more ? kFourPixels : "") + "Sphere 30 -30 30 360",
-                                more ? kMoreLevels : kLevels);
+        const RayWorldScene sphere((more ? kFourPixels : "") + "Sphere 30 -30 30 360",
+                                   more ? kMoreLevels : kLevels);
         const float pixel = (more ? 1.0f / 1024 : 1.0f / 128) * 30 / std::sqrt(2.0f);
-        Numbers number;
+        RayNumbers number;
         std::array<int, 4> met{};
         for (int i = 0; i < 20000; ++i) {
             const RaySegment ray = ray_to(V3f(0, 0, 0), number.in_cube(1), number(0, .3f));
@@ -119,12 +65,12 @@ TEST(RayLevels, EdgesLetNothingThrough) {
     for (const char* faces : {"PointsPolygons ", "SubdivisionMesh \"bilinear\" "})
         for (const float scale : {1.0f, 4.0f}) {
             const std::string tags = faces[0] == 'S' ? "[] [] [] [] " : "";
-            const LevelScene cube("Rotate 20 1 2 3 Scale " + std::to_string(scale) + ' ' +
-                                  std::to_string(scale) + ' ' + std::to_string(scale) + ' ' + faces + kCube +
-                                  tags + kCorners);
+            const RayWorldScene cube("Rotate 20 1 2 3 Scale " + std::to_string(scale) + ' ' +
+                                     std::to_string(scale) + ' ' + std::to_string(scale) + ' ' + faces +
+                                     kCube + tags + kCorners);
             M44f turn;
             turn.setAxisAngle(V3f(1, 2, 3).normalized(), 20 * 3.14159265f / 180);
-            Numbers number;
+            RayNumbers number;
             std::array<int, 4> met{};
             for (int i = 0; i < 100000; ++i) {
                 V3f edge(number(-1, 1), i & 1 ? 1.0f : -1.0f, i & 2 ? 1.0f : -1.0f);
@@ -158,9 +104,9 @@ TEST(RayLevels, ClosedThingsLetNothingThrough) {
             for (const char* rate : {"1", "20"}) {
                 SCOPED_TRACE(thing + std::to_string(scale) + rate);
                 const std::string size = std::to_string(scale);
-                const LevelScene closed("ShadingRate " + std::string(rate) + " Rotate 20 1 2 3 Scale " +
-                                        size + ' ' + size + ' ' + size + ' ' + thing);
-                Numbers number;
+                const RayWorldScene closed("ShadingRate " + std::string(rate) + " Rotate 20 1 2 3 Scale " +
+                                           size + ' ' + size + ' ' + size + ' ' + thing);
+                RayNumbers number;
                 int leaks = 0;
                 for (int i = 0; i < 9000; ++i) {
                     const V3f from = number.in_cube(.3f * scale);
@@ -177,8 +123,8 @@ TEST(RayLevels, EachSheetIsMetOnce) {
     std::string things = "Opacity .5 .5 .5 ";
     for (const char* radius : {".7", "1", "1.6", "3", "5", "9", "17"})
         things += "Sphere " + std::string(radius) + " -" + radius + ' ' + radius + " 360 ";
-    const LevelScene shells(things);
-    Numbers number;
+    const RayWorldScene shells(things);
+    RayNumbers number;
     int twice = 0;
     for (int i = 0; i < 50000; ++i) {
         RaySegment ray = ray_to(number.in_cube(.35f), number.in_cube(1), number(0, 1) * number(0, 2));
@@ -195,7 +141,7 @@ TEST(RayLevels, EachSheetIsMetOnce) {
 /// Where all is in memory, and where bricks are made for many rays at once or for each alone.
 TEST(RayLevels, HitsAreTheSameBitsHoweverTheyAreAsked) {
     std::string things = "ShadingRate .5 ";
-    Numbers place;
+    RayNumbers place;
     for (int i = 0; i < 12; ++i) {
         const V3f at = place.in_cube(2);
         things += "AttributeBegin Translate " + std::to_string(at.x) + ' ' + std::to_string(at.y) + ' ' +
@@ -207,10 +153,10 @@ TEST(RayLevels, HitsAreTheSameBitsHoweverTheyAreAsked) {
                   "Sphere .6 -.6 .5 360 AttributeEnd ";
     }
     for (const std::string& options : {std::string("Format 256 256 1 "), kLevels}) {
-        const LevelScene whole(things, options), bricks(things, options, size_t{4} << 20);
+        const RayWorldScene whole(things, options), bricks(things, options, size_t{4} << 20);
         ASSERT_EQ(whole.world().rays_at_once(), 0u);
         ASSERT_GT(bricks.world().rays_at_once(), 0u);
-        Numbers number;
+        RayNumbers number;
         std::vector<RaySegment> rays;
         for (int i = 0; i < 3000; ++i) {
             const V3f from = number.in_cube(3);

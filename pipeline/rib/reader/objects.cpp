@@ -117,6 +117,7 @@ void SceneBuilder::instance(const std::string& handle) {
     const bool some_bare = std::any_of(object.primitives.begin(), object.primitives.end(),
                                        [](const ObjectPrimitive& p) { return p.solid < 0; });
     const int around = some_bare ? solid_of_surface(solids_here()) : -1;
+    if (!object_) instance_ = instances_++;
     for (ObjectPrimitive& primitive : object.primitives) {
         const int solid = primitive.solid >= 0 ? first_solid + primitive.solid : around;
         const bool own = primitive.attributes != object.attributes;
@@ -132,6 +133,7 @@ void SceneBuilder::instance(const std::string& handle) {
         }
         place_instance(primitive, own ? merged : state_.current().attributes, solid);
     }
+    instance_ = -1;
 }
 
 /// A primitive of an object with the current transformation: into the scene, or into the object that is being

@@ -69,7 +69,7 @@ void SceneBuilder::begin_world() {
     report_turned_away();
     scene_ = Scene();
     solids_ = {};
-    instanced_primitives_ = 0;
+    instanced_primitives_ = 0, instances_ = 0;
 }
 
 /// Maps are made where they stand, so that a later world can use them; a shadow map's picture is that of an
@@ -182,6 +182,7 @@ void SceneBuilder::emit(const std::string& request, std::vector<ShapePointer> sh
     Primitive primitive;
     primitive.location = at;
     primitive.solid = solid;
+    primitive.instance = instance_;
     primitive.shape_keys = std::move(shape_keys);
     const int keys = close > open ? keys_for_paths(transform, open, close, primitive.shape_keys,
                                                    make_camera(state_.options()))

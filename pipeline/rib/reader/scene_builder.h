@@ -124,6 +124,8 @@ class SceneBuilder {
     SolidList solids_;                        ///< the scene's
     std::shared_ptr<RetainedObject> object_;  ///< being defined; null: none
     uint64_t instanced_primitives_ = 0;       ///< of this world
+    int instances_ = 0;                       ///< of this world, so far
+    int instance_ = -1;                       ///< the one whose primitives are emitted now; -1: none
     uint64_t scene_bytes_ = 0;                ///< of this world's primitives, and of objects before it
 
     /// Primitives before the first world.

@@ -1,0 +1,91 @@
+#include "pipeline/rays/ray_hits.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/hit_micropolygon.h"
+
+namespace trapeze {
+namespace {
+
+/// In camera space: 00, 10, 01, 11.
+std::array<V3f, 4> corners(const PlacedRay& placed, const RayGridHit& found) {
+    const MicropolygonId id = MicropolygonId::unpack(found.hit.id);
+    std::array<V3f, 4> all;
+    for (int k = 0; k < 4; ++k)
+        all[static_cast<size_t>(k)] =
+            placed.to_camera(found.grid->vertex(id.u + (k & 1), id.v + (k >> 1), placed.space.time));
+    return all;
+}
+
+/// Grids of shared objects have one instance's colours; only shapes that bring their own have other ones than
+/// the attributes.
+bool brings_colors(const Primitive& primitive) {
+    return std::ranges::any_of(primitive.shape().variables.values,
+                               [](const Parameter& value) { return value.name == "Cs"; });
+}
+
+}  // namespace
+
+/// In the scene itself.
+uint32_t RayHits::primitive(const PlacedRay& placed, const Grid& grid) const {
+    return placed.place ? dicer_.shared().primitive_at(*placed.place, grid.primitive) : grid.primitive;
+}
+
+/// Whether a ray of a direction, camera space, comes to a micropolygon from the outside of its surface.
+bool RayHits::from_outside(const PlacedRay& placed, const V3f& direction, const RayGridHit& found) const {
+    const Attributes& attributes = dicer_.attributes(primitive(placed, *found.grid));
+    const auto [p00, p10, p01, p11] = corners(placed, found);
+    const V3f normal = (p11 - p00).cross(p01 - p10) * (attributes.reverse_orientation ? -1.0f : 1.0f);
+    return normal.dot(direction) <= 0;
+}
+
+/// One-sided surfaces have no inside, and a ray may want groups or sides of its own choice.
+bool RayHits::shows(const RaySegment& ray, const PlacedRay& placed, const RayGridHit& found) const {
+    using Sides = RayFilter::Sides;
+    const uint32_t number = primitive(placed, *found.grid);
+    if (dicer_.context().scene->primitives[number].solid >= 0) return true;  // the whole solid has sides
+    const Attributes& attributes = dicer_.attributes(number);
+    if (ray.only && !ray.only->admits(attributes.rays.groups)) return false;
+    Sides sides = ray.only ? ray.only->sides : Sides::OfAttributes;
+    if (sides == Sides::OfAttributes) sides = attributes.sides == 1 ? Sides::Front : Sides::Both;
+    if (sides == Sides::Both) return true;
+    return from_outside(placed, ray.direction, found) == (sides == Sides::Front);
+}
+
+bool RayHits::counts(const RaySegment& ray, const PlacedRay& placed, const RayGridHit& found) const {
+    if (found.hit.depth < ray.left.most * placed.scale &&
+        std::ranges::none_of(corners(placed, found), [&](const V3f& corner) {
+            return ray.left.is_left(corner - ray.origin, ray.direction);
+        }))
+        return false;
+    return shows(ray, placed, found);
+}
+
+RaySurfaceHit RayHits::hit_of(const RaySegment& ray, const PlacedRay& placed, const RayGridHit& found) const {
+    const MicropolygonId id = MicropolygonId::unpack(found.hit.id);
+    const Grid& grid = *found.grid;
+    const TurnedRay turned = axis_ray(placed.space);
+    const QuadWeights weights = hit_weights(
+        turned.ray, grid.quad(id.u, id.v, placed.space.time, turned.x_plane, turned.y_plane, turned.z_plane));
+    RaySurfaceHit hit;
+    hit.distance = found.hit.depth / placed.scale;
+    hit.primitive = primitive(placed, grid);
+    hit.attributes = &dicer_.attributes(hit.primitive).rays;
+    hit.from_outside = from_outside(placed, ray.direction, found);
+    hit.level = level_;
+    hit.keeps_opacity = dicer_.keeps_opacity(hit.primitive);
+    hit.color = hit.opacity = V3f(0, 0, 0);
+    for (int corner = 0; corner < 4; ++corner) {
+        const int i = id.u + (corner & 1), j = id.v + (corner >> 1);
+        hit.color += weights.w[corner] * grid.color(i, j);
+        hit.opacity += weights.w[corner] * grid.opacity(i, j);
+    }
+    const Primitive& own = dicer_.context().scene->primitives[hit.primitive];
+    if (placed.place && !brings_colors(own)) hit.color = own.attributes->color;
+    hit.id = found.hit.id;
+    hit.at = {weights.w[k10] + weights.w[k11], weights.w[k01] + weights.w[k11]};
+    return hit;
+}
+
+}  // namespace trapeze
