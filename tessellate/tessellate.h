@@ -32,8 +32,8 @@ struct SubpatchInfo {
 struct SubpatchPoint {
     size_t subpatch = 0;  ///< index in Tessellation::subpatches()
     V2f at{0, 0};
-    /// Whose place and attributes it has, by index in the scene: of the same shape as the subpatch's.
-    /// Nothing: the subpatch's own.
+    /// Whose place and attributes it has, by index in the scene: of the same shape as the subpatch's, and
+    /// seen as that is. Nothing: the subpatch's own.
     std::optional<uint32_t> primitive = {};
 };
 

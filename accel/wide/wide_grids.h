@@ -12,7 +12,7 @@ struct EndBoxes {
 
 /// What the pass finds of a grid besides WideGrid and its block boxes.
 struct GridExtent {
-    EndBoxes box;  ///< camera space, grown for rounding; linear in time around all keys
+    EndBoxes box;  ///< the grid's space, grown for rounding; linear in time around all keys
     float absolute_max;
     float largest_micropolygon;  ///< the extent of the largest along any axis
 };

@@ -86,8 +86,9 @@ struct RaySurfaceHit {
     bool keeps_opacity = true;  ///< no shader has to be asked for the opacity that hides others
     V3f opacity{1, 1, 1};       ///< the primitive's own, Os
     V3f color{1, 1, 1};         ///< the primitive's own, Cs
-    uint64_t id = 0;            ///< MicropolygonId::packed(): with `at`, what dice() finds the place by
-    V2f at{0, 0};               ///< within the micropolygon
+    /// MicropolygonId::packed(): with `primitive` and `at`, what dice() finds the place by.
+    uint64_t id = 0;
+    V2f at{0, 0};  ///< within the micropolygon
 };
 
 /// The geometry that rays meet, at any time of the shutter. Immutable: threads share it.

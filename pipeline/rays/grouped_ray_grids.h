@@ -14,7 +14,7 @@
 
 namespace trapeze {
 
-/// Of one space: camera space, or that of a shared object. Rays come with themselves in that space.
+/// Of one space: camera space, or that of a shared object, in which each ray comes as its PlacedRay.
 class GroupedRayGrids {
   public:
     /// Sets of kinds of rays, a bit for each.
@@ -36,7 +36,8 @@ class GroupedRayGrids {
                                          RayKind kind) const;
     /// What is in the way: Opaque only where it counts for the ray, whatever it is.
     InTheWay in_the_way(const RaySegment& ray, const PlacedRay& placed, RayKind kind) const;
-    /// Of many rays: bricks are made once for all. found[i] is that of rays[i].
+    /// Of many rays, and the same one in several places: bricks are made once for all. placed[i] and found[i]
+    /// are those of rays[i].
     void closest(const RayHits& hits, std::span<const RaySegment> rays, std::span<const PlacedRay> placed,
                  RayKind kind, std::span<std::optional<RaySurfaceHit>> found) const;
     void in_the_way(std::span<const RaySegment> rays, std::span<const PlacedRay> placed, RayKind kind,

@@ -49,43 +49,39 @@ struct SurfelSums {
     }
 };
 
-/// The first micropolygon's, and above it the number of the place, or 0. Subpatches are as many as a tree
-/// tells apart (WideTree::kMaxGrids).
-constexpr int kPlaceShift = 32;
+/// The number of a place is above that of the first micropolygon.
+constexpr int kPlaceShift = 40;
+constexpr size_t kMostPlaces = size_t{1} << (64 - kPlaceShift);
 
-uint64_t surfel_id(uint32_t subpatch, int u, int v, size_t place_number) {
-    return MicropolygonId{subpatch, static_cast<uint8_t>(u), static_cast<uint8_t>(v)}.packed() |
-           uint64_t{place_number} << kPlaceShift;
+uint64_t surfel_id(uint64_t subpatch, int u, int v, uint64_t place) {
+    return MicropolygonId{static_cast<uint32_t>(subpatch), static_cast<uint8_t>(u), static_cast<uint8_t>(v)}
+               .packed() |
+           place << kPlaceShift;
 }
 
-/// A subpatch where it is met. Places have numbers from 1 on; 0 is camera space.
-struct SurfelSource {
-    uint32_t subpatch;
-    uint32_t place_number;
+/// Where a subpatch is met: places by their numbers, from 1 on, or 0: camera space.
+struct PlaceRange {
+    size_t first = 0, end = 1;
 };
 
-/// Those of shared objects once for each instance.
-std::vector<SurfelSource> sources_of(const RayDicer& dicer, const std::function<bool(uint32_t)>& wanted) {
-    const std::vector<SubpatchInfo>& subpatches = dicer.tessellation().subpatches();
-    const SharedObjects& shared = dicer.shared();
-    std::vector<std::vector<uint32_t>> places(shared.objects.size());
-    for (uint32_t i = 0; i < shared.places.size(); ++i) places[shared.places[i].object].push_back(i + 1);
-    std::vector<SurfelSource> sources;
-    for (uint32_t i = 0; i < subpatches.size(); ++i) {
-        if (!wanted(subpatches[i].primitive)) continue;
-        const int object = shared.object_of(subpatches[i].primitive);
-        if (object < 0) sources.push_back({i, 0});
-        if (object >= 0)
-            for (const uint32_t number : places[static_cast<size_t>(object)]) sources.push_back({i, number});
+/// Of each shared object; its places follow each other.
+std::vector<PlaceRange> places_of(const SharedObjects& shared) {
+    std::vector<PlaceRange> ranges(shared.objects.size(), {0, 0});
+    for (size_t i = 0; i < shared.places.size(); ++i) {
+        PlaceRange& range = ranges[shared.places[i].object];
+        if (range.end == 0) range.first = i + 1;
+        range.end = i + 2;
     }
-    return sources;
+    return ranges;
 }
 
 /// The discs of a grid, from number `at` on. Blocks without an area, or that are not seen, stay without one.
-void put(const RayDicer& dicer, const Grid& grid, const SurfelSource& source, Surfels& surfels, size_t at) {
-    const bool reversed = dicer.attributes(grid.primitive).reverse_orientation;
-    const PlacedGrid placed{
-        grid, source.place_number > 0 ? &dicer.shared().places[source.place_number - 1] : nullptr};
+void put(const RayDicer& dicer, const Grid& grid, size_t place_number, Surfels& surfels, size_t at) {
+    const SharedObjects& shared = dicer.shared();
+    const ObjectPlace* const place = place_number > 0 ? &shared.places[place_number - 1] : nullptr;
+    const uint32_t primitive = place ? shared.primitive_at(*place, grid.primitive) : grid.primitive;
+    const bool reversed = dicer.attributes(primitive).reverse_orientation;
+    const PlacedGrid placed{grid, place};
     for (int v = 0; v < grid.shape.nv; v += kSurfelSide)
         for (int u = 0; u < grid.shape.nu; u += kSurfelSide, ++at) {
             SurfelSums sums;
@@ -95,7 +91,7 @@ void put(const RayDicer& dicer, const Grid& grid, const SurfelSource& source, Su
             surfels.positions[at] = sums.area > 0 ? sums.place / sums.area : V3f(0);
             surfels.normals[at] = sums.vector_area.normalized() * (reversed ? -1.0f : 1.0f);
             surfels.areas[at] = sums.hiding_area;
-            surfels.ids[at] = surfel_id(source.subpatch, u, v, source.place_number);
+            surfels.ids[at] = surfel_id(grid.ordinal, u, v, place_number);
             const int u1 = std::min<int>(u + kSurfelSide, grid.shape.nu);
             const int v1 = std::min<int>(v + kSurfelSide, grid.shape.nv);
             surfels.quads[at] = {placed.vertex(u, v), placed.vertex(u1, v), placed.vertex(u1, v1),
@@ -122,10 +118,19 @@ int dice_surfel(const RayDicer& dicer, uint64_t id, ShadingGrid& grid) {
 std::optional<Surfels> make_surfels(const RayDicer& dicer, const std::function<bool(uint32_t)>& wanted,
                                     size_t most_bytes) {
     const std::vector<SubpatchInfo>& subpatches = dicer.tessellation().subpatches();
-    const std::vector<SurfelSource> sources = sources_of(dicer, wanted);
-    std::vector<size_t> first(sources.size() + 1, 0);
-    for (size_t i = 0; i < sources.size(); ++i)
-        first[i + 1] = first[i] + surfels_of(subpatches[sources[i].subpatch].shape);
+    const SharedObjects& shared = dicer.shared();
+    if (shared.places.size() >= kMostPlaces) return {};
+    const std::vector<PlaceRange> of_objects = places_of(shared);
+    const auto places = [&](size_t subpatch) {
+        const int object = shared.object_of(subpatches[subpatch].primitive);
+        return object < 0 ? PlaceRange() : of_objects[static_cast<size_t>(object)];
+    };
+    std::vector<size_t> first(subpatches.size() + 1, 0);
+    for (size_t i = 0; i < subpatches.size(); ++i) {
+        const auto [begin, end] = places(i);
+        first[i + 1] = first[i];
+        if (wanted(subpatches[i].primitive)) first[i + 1] += (end - begin) * surfels_of(subpatches[i].shape);
+    }
     Surfels surfels;
     if (first.back() > most_bytes / (2 * sizeof(V3f) + sizeof(float) + sizeof(SurfelQuad) + sizeof(uint64_t)))
         return {};
@@ -135,11 +140,14 @@ std::optional<Surfels> make_surfels(const RayDicer& dicer, const std::function<b
     // Who waits for it may hold what other tasks of the frame want.
     tbb::this_task_arena::isolate([&] {
         tbb::parallel_for(
-            tbb::blocked_range<size_t>(0, sources.size(), kSurfelGrain), [&](const auto& range) {
+            tbb::blocked_range<size_t>(0, subpatches.size(), kSurfelGrain), [&](const auto& range) {
                 for (size_t i = range.begin(); i != range.end() && !dicer.context().is_cancelled(); ++i) {
+                    if (first[i] == first[i + 1]) continue;
                     GridArena passing(1);
-                    const Grid grid = dicer.make(sources[i].subpatch, passing);
-                    put(dicer, grid, sources[i], surfels, first[i]);
+                    const Grid grid = dicer.make(i, passing);
+                    const auto [begin, end] = places(i);
+                    for (size_t place = begin; place < end; ++place)
+                        put(dicer, grid, place, surfels, first[i] + (place - begin) * surfels_of(grid.shape));
                 }
             });
     });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "core/scene/poses.h"
@@ -16,25 +17,24 @@ float largest_part(const V3f& v) {
 }  // namespace
 
 V3f ObjectPlace::to_camera(const V3f& P, float time) const {
-    return P * pose_at(std::span<const M44f>(camera_from_shared), time);
+    return V3f(V3d(P) * pose_at(std::span<const M44d>(camera_from_shared), time));
 }
 
-/// In doubles: places move by what rounds here.
-M44f ObjectPlace::inverse(const M44f& pose) {
-    return M44f(M44d(pose).inverse());
+M44d ObjectPlace::inverse(const M44d& pose) {
+    return pose.determinant() == 0 ? M44d(std::numeric_limits<double>::quiet_NaN()) : pose.inverse();
 }
 
 PlacedRay::PlacedRay(const RaySegment& ray)
     : space{ray.origin, ray.direction, ray.time}, scale(largest_part(ray.direction)) {}
 
 PlacedRay::PlacedRay(const RaySegment& ray, const ObjectPlace& at) : place(&at) {
-    const std::span<const M44f> poses = at.camera_from_shared;
-    const M44f to_shared =
+    const std::span<const M44d> poses = at.camera_from_shared;
+    const M44d to_shared =
         poses.size() == 1 ? at.shared_from_camera : ObjectPlace::inverse(pose_at(poses, ray.time));
-    V3f direction;
-    to_shared.multDirMatrix(ray.direction, direction);
-    space = {ray.origin * to_shared, direction, ray.time};
-    scale = largest_part(direction);
+    V3d direction;
+    to_shared.multDirMatrix(V3d(ray.direction), direction);
+    space = {V3f(V3d(ray.origin) * to_shared), V3f(direction), ray.time};
+    scale = largest_part(space.direction);
 }
 
 RangedRay PlacedRay::ranged(const RaySegment& ray) const {

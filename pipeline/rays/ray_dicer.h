@@ -36,8 +36,9 @@ class RayDicer {
     /// own primitives: subpatches are of these.
     const SharedObjects& shared() const { return scene_->shared; }
 
-    /// Dices, displaces and packs a subpatch, by its number; Grid::ordinal is that number. Grid::primitive is
-    /// one that the scene has itself: of a shared object that which stands for all instances'.
+    /// Dices, displaces and packs a subpatch, by its number; Grid::ordinal is that number. Of a model
+    /// positions are in the model's space, and Grid::primitive is what it is a copy of
+    /// (SharedObjects::own()).
     Grid make(size_t subpatch, GridArena& arena) const;
     /// Tessellation::dice_point().
     int make_point(const SubpatchPoint& point, ShadingGrid& grid) const;

@@ -26,11 +26,10 @@ void unite(std::optional<GridExtent>& all, const GridExtent& one) {
     all = all ? united(*all, one) : one;
 }
 
-/// The nearer hit; of equally near ones that of the place that comes first.
-bool is_in_front(const RaySurfaceHit& hit, uint32_t place, const std::optional<RaySurfaceHit>& nearest,
-                 int64_t nearest_place) {
-    if (!nearest) return true;
-    return std::tuple(hit.distance, int64_t{place}) < std::tuple(nearest->distance, nearest_place);
+/// The nearer hit; of equally near ones that of the primitive that comes first.
+bool is_in_front(const RaySurfaceHit& hit, const std::optional<RaySurfaceHit>& nearest) {
+    return !nearest ||
+           std::tuple(hit.distance, hit.primitive) < std::tuple(nearest->distance, nearest->primitive);
 }
 
 /// Hits as near as the nearest are wanted, too, which round differently in another space.
@@ -127,14 +126,13 @@ uint64_t RayLevel::micropolygons_made() const {
 std::optional<RaySurfaceHit> RayLevel::closest(const RaySegment& ray, RayKind kind) const {
     std::optional<RaySurfaceHit> nearest = own_.closest(hits_, ray, PlacedRay(ray), kind);
     if (!places_) return nearest;
-    int64_t nearest_place = -1;
     RaySegment rest = ray;
     if (nearest) rest.max = nearest->distance;
-    places_->visit(rest, [&](uint32_t number, const PlacedRay& placed) {
+    places_->visit(rest, [&](uint32_t, float, const PlacedRay& placed) {
         const GroupedRayGrids& object = objects_[placed.place->object];
         const std::optional<RaySurfaceHit> hit = object.closest(hits_, beyond(rest), placed, kind);
-        if (hit && hit->distance <= ray.max && is_in_front(*hit, number, nearest, nearest_place)) {
-            nearest = hit, nearest_place = number;
+        if (hit && hit->distance <= ray.max && is_in_front(*hit, nearest)) {
+            nearest = hit;
             rest.max = hit->distance;
         }
         return rest.max;
@@ -142,70 +140,81 @@ std::optional<RaySurfaceHit> RayLevel::closest(const RaySegment& ray, RayKind ki
     return nearest;
 }
 
-/// A ray that comes to a place.
+/// A ray that comes to a place, nothing of which is nearer than a distance.
 struct RayLevel::Meeting {
-    uint32_t object, place, ray;
+    uint32_t place, ray;
+    float distance;
 };
 
-/// All meetings of rays and places, object by object.
+/// All meetings of rays and places, place by place, and so object by object.
 std::vector<RayLevel::Meeting> RayLevel::meetings(std::span<const RaySegment> rays) const {
     std::vector<Meeting> meetings;
     for (uint32_t i = 0; i < rays.size(); ++i)
-        places_->visit(rays[i], [&](uint32_t number, const PlacedRay& placed) {
-            meetings.push_back({placed.place->object, number, i});
+        places_->visit(rays[i], [&](uint32_t number, float distance, const PlacedRay&) {
+            meetings.push_back({number, i, distance});
             return rays[i].max;
         });
-    std::ranges::sort(meetings, {}, [](const Meeting& meeting) {
-        return std::tuple(meeting.object, meeting.place, meeting.ray);
-    });
+    std::ranges::sort(meetings, {},
+                      [](const Meeting& meeting) { return std::tuple(meeting.place, meeting.ray); });
     return meetings;
 }
 
-/// Calls meet(object, meetings, placed rays), object by object.
-template <class Meet>
-void RayLevel::for_each_object(std::span<const RaySegment> rays, const Meet& meet) const {
-    const std::vector<Meeting> all = meetings(rays);
+/// Calls meet(object, meetings, placed rays) for meetings with one object, as many at a time as there are
+/// rays, which bounds the memory. Leaves out those that nobody wants any more: wants(meeting).
+template <class Wants, class Meet>
+void RayLevel::for_each_object(std::span<const RaySegment> rays, const Wants& wants, const Meet& meet) const {
+    const std::vector<ObjectPlace>& places = dicer_.shared().places;
+    std::vector<Meeting> wanted;
     std::vector<PlacedRay> placed;
-    for (size_t first = 0, end; first < all.size(); first = end) {
-        placed.clear();
-        for (end = first; end < all.size() && all[end].object == all[first].object; ++end)
-            placed.emplace_back(rays[all[end].ray], dicer_.shared().places[all[end].place]);
-        meet(objects_[all[first].object], std::span(all).subspan(first, end - first), placed);
+    const auto ask = [&] {
+        if (!wanted.empty()) meet(objects_[places[wanted.front().place].object], wanted, placed);
+        wanted.clear(), placed.clear();
+    };
+    for (const Meeting& meeting : meetings(rays)) {
+        const ObjectPlace& place = places[meeting.place];
+        if (wanted.size() >= rays.size() ||
+            (!wanted.empty() && places[wanted.front().place].object != place.object))
+            ask();
+        if (!wants(meeting)) continue;
+        wanted.push_back(meeting), placed.emplace_back(rays[meeting.ray], place);
     }
+    ask();
 }
 
 void RayLevel::closest(std::span<const RaySegment> rays, RayKind kind,
                        std::span<std::optional<RaySurfaceHit>> hits) const {
-    std::vector<PlacedRay> placed;
-    for (const RaySegment& ray : rays) placed.emplace_back(ray);
-    own_.closest(hits_, rays, placed, kind, hits);
+    {
+        std::vector<PlacedRay> placed;
+        for (const RaySegment& ray : rays) placed.emplace_back(ray);
+        own_.closest(hits_, rays, placed, kind, hits);
+    }
     if (!places_) return;
     std::vector<RaySegment> rest(rays.begin(), rays.end());
     for (size_t i = 0; i < rays.size(); ++i)
         if (hits[i]) rest[i].max = hits[i]->distance;
-    std::vector<int64_t> nearest_place(rays.size(), -1);
     std::vector<RaySegment> asked;
     std::vector<std::optional<RaySurfaceHit>> found;
-    for_each_object(rest, [&](const GroupedRayGrids& object, std::span<const Meeting> meetings,
-                              std::span<const PlacedRay> in_places) {
-        asked.clear(), found.assign(meetings.size(), std::nullopt);
-        for (const Meeting& meeting : meetings) asked.push_back(beyond(rest[meeting.ray]));
-        object.closest(hits_, asked, in_places, kind, found);
-        for (size_t k = 0; k < meetings.size(); ++k) {
-            const auto [number, place, i] = meetings[k];
-            if (!found[k] || found[k]->distance > rays[i].max ||
-                !is_in_front(*found[k], place, hits[i], nearest_place[i]))
-                continue;
-            hits[i] = found[k], nearest_place[i] = place;
-            rest[i].max = found[k]->distance;
-        }
-    });
+    for_each_object(
+        rest, [&](const Meeting& meeting) { return meeting.distance <= beyond(rest[meeting.ray]).max; },
+        [&](const GroupedRayGrids& object, std::span<const Meeting> meetings,
+            std::span<const PlacedRay> placed) {
+            asked.clear(), found.assign(meetings.size(), std::nullopt);
+            for (const Meeting& meeting : meetings) asked.push_back(beyond(rest[meeting.ray]));
+            object.closest(hits_, asked, placed, kind, found);
+            for (size_t k = 0; k < meetings.size(); ++k) {
+                const uint32_t i = meetings[k].ray;
+                if (!found[k] || found[k]->distance > rays[i].max || !is_in_front(*found[k], hits[i]))
+                    continue;
+                hits[i] = found[k];
+                rest[i].max = found[k]->distance;
+            }
+        });
 }
 
 std::optional<bool> RayLevel::blocked(const RaySegment& ray, RayKind kind) const {
     InTheWay most = own_.in_the_way(ray, PlacedRay(ray), kind);
     if (places_ && most != InTheWay::Opaque)
-        places_->visit(ray, [&](uint32_t, const PlacedRay& placed) {
+        places_->visit(ray, [&](uint32_t, float, const PlacedRay& placed) {
             if (most == InTheWay::Opaque) return -kInfinity;
             most = std::max(most, objects_[placed.place->object].in_the_way(ray, placed, kind));
             return most == InTheWay::Opaque ? -kInfinity : ray.max;
@@ -215,28 +224,25 @@ std::optional<bool> RayLevel::blocked(const RaySegment& ray, RayKind kind) const
 
 void RayLevel::blocked(std::span<const RaySegment> rays, RayKind kind,
                        std::span<std::optional<bool>> blocked) const {
-    std::vector<PlacedRay> placed;
-    for (const RaySegment& ray : rays) placed.emplace_back(ray);
     std::vector<InTheWay> most(rays.size());
-    own_.in_the_way(rays, placed, kind, most);
-    if (places_) {
-        std::vector<RaySegment> open;
-        std::vector<uint32_t> numbers;
-        for (uint32_t i = 0; i < rays.size(); ++i)
-            if (most[i] != InTheWay::Opaque) open.push_back(rays[i]), numbers.push_back(i);
-        std::vector<RaySegment> asked;
-        std::vector<InTheWay> met;
-        for_each_object(open, [&](const GroupedRayGrids& object, std::span<const Meeting> meetings,
-                                  std::span<const PlacedRay> in_places) {
-            asked.clear(), met.resize(meetings.size());
-            for (const Meeting& meeting : meetings) asked.push_back(open[meeting.ray]);
-            object.in_the_way(asked, in_places, kind, met);
-            for (size_t k = 0; k < meetings.size(); ++k) {
-                InTheWay& own = most[numbers[meetings[k].ray]];
-                own = std::max(own, met[k]);
-            }
-        });
+    {
+        std::vector<PlacedRay> placed;
+        for (const RaySegment& ray : rays) placed.emplace_back(ray);
+        own_.in_the_way(rays, placed, kind, most);
     }
+    std::vector<RaySegment> asked;
+    std::vector<InTheWay> met;
+    if (places_)
+        for_each_object(
+            rays, [&](const Meeting& meeting) { return most[meeting.ray] != InTheWay::Opaque; },
+            [&](const GroupedRayGrids& object, std::span<const Meeting> meetings,
+                std::span<const PlacedRay> placed) {
+                asked.clear(), met.resize(meetings.size());
+                for (const Meeting& meeting : meetings) asked.push_back(rays[meeting.ray]);
+                object.in_the_way(asked, placed, kind, met);
+                for (size_t k = 0; k < meetings.size(); ++k)
+                    most[meetings[k].ray] = std::max(most[meetings[k].ray], met[k]);
+            });
     std::ranges::transform(most, blocked.begin(), is_blocked);
 }
 

@@ -56,8 +56,8 @@ class RayLevel {
   private:
     struct Meeting;
     std::vector<Meeting> meetings(std::span<const RaySegment> rays) const;
-    template <class Meet>
-    void for_each_object(std::span<const RaySegment> rays, const Meet& meet) const;
+    template <class Wants, class Meet>
+    void for_each_object(std::span<const RaySegment> rays, const Wants& wants, const Meet& meet) const;
 
     const uint8_t level_ = 0;
     RayDicer dicer_;

@@ -25,11 +25,11 @@ float largest_coordinate(const Imath::Box3f& box) {
 }
 
 /// How much longer a space makes things, at most.
-float stretch_of(const M44f& m) {
-    float sum = 0;
+float most_stretch(const M44d& m) {
+    double sum = 0;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) sum += m[i][j] * m[i][j];
-    return std::sqrt(sum);
+    return static_cast<float>(std::sqrt(sum));
 }
 
 /// Camera space. Grown by what rounds on the way there and of rays on the way back; the larger of both spaces
@@ -37,11 +37,11 @@ float stretch_of(const M44f& m) {
 GridExtent placed(const GridExtent& extent, const ObjectPlace& place) {
     GridExtent out{};
     out.absolute_max = 0;
-    const std::vector<M44f>& poses = place.camera_from_shared;
+    const std::vector<M44d>& poses = place.camera_from_shared;
     Imath::Box3f ends[2], all;
     for (size_t key = 0; key < poses.size(); ++key) {
         Imath::Box3f box = Imath::transform(box_of(extent), poses[key]);
-        const float stretch = stretch_of(poses[key]);
+        const float stretch = most_stretch(poses[key]);
         const float pad = kTraceRounding * (largest_coordinate(box) + stretch * extent.absolute_max);
         box.min -= V3f(pad), box.max += V3f(pad);
         out.absolute_max = std::max(out.absolute_max, largest_coordinate(box));

@@ -19,8 +19,9 @@ class RayPlaces {
     /// nobody sees it.
     RayPlaces(std::span<const ObjectPlace> places, std::span<const std::optional<GridExtent>> extents);
 
-    /// Calls see(number, placed) for each place within which the ray may meet something, about the nearest
-    /// first; what is behind the distance that it returns need not be seen.
+    /// Calls see(number, distance, placed) for each place within which the ray may meet something, and
+    /// nothing nearer than that distance, about the nearest first. What is behind the distance that it
+    /// returns need not be seen.
     template <class See>
     void visit(const RaySegment& ray, const See& see) const {
         const V3f sum = ray.origin + ray.direction;
@@ -28,9 +29,9 @@ class RayPlaces {
         const PlacedRay own(ray);
         const RangedRay ranged = own.ranged(ray);
         TraceRay trace = TraceRay::turned(axis_ray(ranged.ray), ranged.range);
-        tree_.visit(trace, [&](uint32_t at, float) {
+        tree_.visit(trace, [&](uint32_t at, float depth) {
             const uint32_t number = numbers_[at];
-            const float most = see(number, PlacedRay(ray, places_[number]));
+            const float most = see(number, depth / own.scale, PlacedRay(ray, places_[number]));
             trace.t_max = std::min(trace.t_max, most * own.scale * kOfRounding);
         });
     }

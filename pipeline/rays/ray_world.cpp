@@ -13,8 +13,9 @@ namespace {
 
 /// The share of a render's memory that what rays meet may take, besides the lists of subpatches.
 constexpr double kRayShare = 0.5;
-/// About what a ray takes that waits for geometry, and the most that wait.
-constexpr size_t kBytesOfRay = 384, kMostAtOnce = size_t{1} << 18;
+/// About what a ray takes that waits for geometry, and what it does where it passes through instances'
+/// spaces; the most that wait.
+constexpr size_t kBytesOfRay = 384, kBytesOfPlacedRay = 1024, kMostAtOnce = size_t{1} << 18;
 
 /// Scenes of fewer micropolygons have one level: time is not gained by more where all is in memory.
 constexpr uint64_t kManyMicropolygons = uint64_t{1} << 25;
@@ -31,7 +32,7 @@ RayWorld::RayWorld(const RenderContext& context, const Shading& shading, size_t 
     rule_ = LevelRule(context.camera, make_levels(most_bytes));
     const auto threads = static_cast<size_t>(tbb::this_task_arena::max_concurrency());
     rays_at_once_ = static_cast<size_t>(kRayShare * (1 - kBrickShare) * static_cast<double>(most_bytes)) /
-                    threads / kBytesOfRay;
+                    threads / (levels_[0]->dicer().shared().places.empty() ? kBytesOfRay : kBytesOfPlacedRay);
     // From the coarsest one on: what most rays meet is the last to be made again and again.
     size_t rest = static_cast<size_t>(kRayShare * static_cast<double>(most_bytes));
     for (int number = kMostRayLevels - 1; number >= 0 && !context.is_cancelled(); --number) {

@@ -8,10 +8,10 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <optional>
-#include <set>
+#include <span>
 
-#include "core/scene/poses.h"
 #include "pipeline/rays/level_spans.h"
 
 namespace trapeze {
@@ -62,7 +62,7 @@ void extend(Imath::Box3d& box, const Quadric& quadric) {
 }
 
 /// Around control points: near enough to where the surface is for what is asked of it.
-Imath::Box3d box_of(const Shape& shape) {
+Imath::Box3d box_around(const Shape& shape) {
     Imath::Box3d box;
     if (const auto* quadric = std::get_if<Quadric>(&shape.topology)) extend(box, *quadric);
     for (const Parameter& value : shape.variables.values) {
@@ -76,19 +76,61 @@ Imath::Box3d box_of(const Shape& shape) {
     return box;
 }
 
+/// The farthest that a box reaches from the origin along an axis.
+double farthest(const Imath::Box3d& box) {
+    if (box.isEmpty()) return 0;
+    double most = 0;
+    for (int k = 0; k < 3; ++k) most = std::max({most, std::abs(box.min[k]), std::abs(box.max[k])});
+    return most;
+}
+
+/// Whether two spaces put what is within a radius around their origin in the same place but for rounding.
+bool is_near(const M44d& a, const M44d& b, double radius) {
+    constexpr double kSame = 0x1p-21;  // of the largest coordinate
+    const auto reach = [&](const auto& element) {
+        double most = 0;
+        for (int j = 0; j < 3; ++j)
+            most = std::max(
+                most, std::abs(element(3, j)) + radius * (std::abs(element(0, j)) + std::abs(element(1, j)) +
+                                                          std::abs(element(2, j))));
+        return most;
+    };
+    return reach([&](int i, int j) { return a[i][j] - b[i][j]; }) <=
+           kSame * reach([&](int i, int j) { return b[i][j]; });
+}
+
+/// How much longer a space makes things: at most (x) to at least (z).
+V3d stretch_of(const M44f& space) {
+    const Imath::M33d linear(space[0][0], space[0][1], space[0][2], space[1][0], space[1][1], space[1][2],
+                             space[2][0], space[2][1], space[2][2]);
+    Imath::M33d u, v;
+    V3d stretch;
+    Imath::jacobiSVD(linear, u, stretch, v);
+    return stretch;
+}
+
+bool is_even(const V3d& stretch) {
+    return stretch.z > 0 && stretch.x <= kMostStretch * stretch.z;
+}
+
+/// Surfaces are placed without a division.
+bool is_affine(const M44f& m) {
+    return m[0][3] == 0 && m[1][3] == 0 && m[2][3] == 0 && m[3][3] == 1;
+}
+
 class Sharing {
   public:
     Sharing(const Scene& scene, const Camera& camera, bool moves, const WhatRaysMeet& what)
         : scene_(scene), camera_(camera), rule_(camera, {0}), moves_(moves), what_(what) {}
 
-    /// Keys are in no order that means anything: objects come in that of their first instances.
+    /// Keys are in no order that means anything: objects come in that of their first instances. Objects of
+    /// the same shapes in other places have the same key.
     SharedObjects run() {
         result_.is_shared.resize(scene_.primitives.size());
         group_instances();
-        std::map<uint32_t, const Groups::value_type*> by_first;
-        for (const Groups::value_type& group : groups_)
-            if (group.second.size() >= kFewInstances) by_first[group.second.front()] = &group;
-        for (const auto& [first, group] : by_first) share(group->first, group->second);
+        std::map<uint32_t, Groups::value_type*> by_first;
+        for (Groups::value_type& group : groups_) by_first[group.second.front()] = &group;
+        for (auto& [first, group] : by_first) share_by_layout(group->first, group->second);
         return std::move(result_);
     }
 
@@ -96,11 +138,25 @@ class Sharing {
     /// First primitives of instances.
     using Groups = std::map<ObjectKey, std::vector<uint32_t>>;
 
+    /// Layouts of one key that are looked for; what is of others is not shared.
+    static constexpr int kMostLayouts = 64;
+
+    void share_by_layout(const ObjectKey& key, std::vector<uint32_t>& firsts) {
+        for (int layout = 0; layout < kMostLayouts && firsts.size() >= kFewInstances; ++layout) {
+            const auto others = std::stable_partition(firsts.begin(), firsts.end(), [&](uint32_t first) {
+                return first == firsts.front() || is_laid_out_as(first, firsts.front(), key.parts.size());
+            });
+            if (static_cast<size_t>(others - firsts.begin()) >= kFewInstances)
+                share(key, {firsts.begin(), others});
+            firsts.erase(firsts.begin(), others);
+        }
+    }
+
     const Primitive& primitive(uint32_t number) const { return scene_.primitives[number]; }
 
-    std::vector<M44f> poses(uint32_t number) const {
-        const std::vector<M44f>& all = primitive(number).camera_from_object;
-        return moves_ ? all : std::vector<M44f>{all.front()};
+    std::span<const M44f> poses(uint32_t number) const {
+        const std::span<const M44f> all = primitive(number).camera_from_object;
+        return moves_ ? all : all.first(1);
     }
 
     void group_instances() {
@@ -115,16 +171,16 @@ class Sharing {
     }
 
     /// Nothing where an instance shares nothing.
-    std::optional<ObjectKey> key_of(uint32_t first, uint32_t end) const {
+    std::optional<ObjectKey> key_of(uint32_t first, uint32_t end) {
         ObjectKey key;
         bool is_seen = false;
         for (uint32_t i = first; i < end; ++i) {
             const std::optional<PartKey> part = part_of(i);
-            if (!part || !moves_as(i, first)) return {};
+            if (!part || poses(i).size() != poses(first).size()) return {};
             key.parts.push_back(*part);
             is_seen |= primitive(i).attributes->rays.seen();
         }
-        if (!is_seen) return {};
+        if (!is_seen || !is_laid_out_as(first, first, key.parts.size())) return {};
         const std::optional<int> size = size_of(first, end);
         if (!size) return {};
         key.size = *size;
@@ -147,22 +203,35 @@ class Sharing {
                         a.rays.transmission, what_.keeps_opacity(number)}};
     }
 
-    /// Whether a primitive keeps its place beside another one of its instance.
-    bool moves_as(uint32_t number, uint32_t first) const {
-        const std::vector<M44f> own = poses(number), others = poses(first);
-        if (own.size() != others.size()) return false;
-        const M44d beside = M44d(own.front()) * M44d(others.front()).inverse();
-        for (size_t key = 1; key < own.size(); ++key)
-            if (!is_same_pose(M44f(beside * M44d(others[key])), own[key])) return false;
+    /// Whether all primitives of an instance are beside its first one, at all times, where those of another
+    /// one are at shutter open: nearer than what a ray's beginning makes up for.
+    bool is_laid_out_as(uint32_t first, uint32_t other_first, size_t count) {
+        const M44d other_from_camera = M44d(primitive(other_first).camera_from_object.front()).inverse();
+        for (uint32_t i = 0; i < count; ++i) {
+            const M44d beside =
+                i == 0 ? M44d()
+                       : M44d(primitive(other_first + i).camera_from_object.front()) * other_from_camera;
+            const double radius = farthest(box_of(primitive(first + i).shape_keys.front()));
+            for (size_t key = 0; key < poses(first).size() && i > 0; ++key)
+                if (!is_near(beside * M44d(poses(first)[key]), M44d(poses(first + i)[key]), radius))
+                    return false;
+        }
         return true;
     }
 
+    /// Around control points; shapes are shared by many instances.
+    const Imath::Box3d& box_of(const std::shared_ptr<const Shape>& shape) {
+        const auto [at, is_new] = boxes_.try_emplace(shape.get());
+        if (is_new) at->second = box_around(*shape);
+        return at->second;
+    }
+
     /// In the space of the first primitive.
-    Ball ball_of(uint32_t first, uint32_t end) const {
+    Ball ball_of(uint32_t first, uint32_t end) {
         const M44d first_from_camera = M44d(primitive(first).camera_from_object.front()).inverse();
         Imath::Box3d box;
         for (uint32_t i = first; i < end; ++i) {
-            const Imath::Box3d own = box_of(primitive(i).shape());
+            const Imath::Box3d& own = box_of(primitive(i).shape_keys.front());
             const M44d first_from_own =
                 i == first ? M44d() : M44d(primitive(i).camera_from_object.front()) * first_from_camera;
             if (!own.isEmpty()) box.extendBy(Imath::transform(own, first_from_own));
@@ -173,20 +242,21 @@ class Sharing {
 
     /// ObjectKey::size, by what is there at shutter open; nothing where the instance had better have grids of
     /// its own.
-    std::optional<int> size_of(uint32_t first, uint32_t end) const {
+    std::optional<int> size_of(uint32_t first, uint32_t end) {
         const M44d space(primitive(first).camera_from_object.front());
-        const Imath::M33d linear(space[0][0], space[0][1], space[0][2], space[1][0], space[1][1], space[1][2],
-                                 space[2][0], space[2][1], space[2][2]);
-        Imath::M33d u, v;
-        V3d stretch;
-        Imath::jacobiSVD(linear, u, stretch, v);
-        if (!(stretch.x <= kMostStretch * stretch.z)) return {};
+        for (uint32_t i = first; i < end; ++i)
+            if (!std::ranges::all_of(poses(i), is_affine)) return {};
+        // What turns inside out on its way has no inverse then.
+        for (const M44f& pose : poses(first))
+            if (!is_even(stretch_of(pose)) || (M44d(pose).determinant() < 0) != (space.determinant() < 0))
+                return {};
+        const double stretch = stretch_of(primitive(first).camera_from_object.front()).x;
         const Ball ball = ball_of(first, end);
-        const double pixel = pixel_at_least(ball.center * space, ball.radius * stretch.x) / stretch.x;
+        const double pixel = pixel_at_least(ball.center * space, ball.radius * stretch) / stretch;
         if (!(pixel > 0) || !(ball.radius > 0) || !std::isfinite(ball.radius / pixel)) return {};
         const int size = std::ilogb(pixel);
         const double side = std::ldexp(1.0, size);
-        if (!model_space(ball, side) || micropolygons(first, end, ball.radius / side) < kFewMicropolygons)
+        if (!model_space(ball, side, 1) || micropolygons(first, end, ball.radius / side) < kFewMicropolygons)
             return {};
         return size;
     }
@@ -214,15 +284,16 @@ class Sharing {
     }
 
     /// A space in which an object is diced with sides of at most so much of its own: far away on the view's
-    /// axis, or in the middle of an orthographic picture. Nothing where that is too near.
-    std::optional<M44d> model_space(const Ball& ball, double side) const {
+    /// axis, scaled as asked, or in the middle of an orthographic picture. Nothing where that is too near.
+    std::optional<M44d> model_space(const Ball& ball, double side, double perspective_scale) const {
         const double unit = rule_.pixel(middle());
         M44d space;
         space.setTranslation(-ball.center);
         if (camera_.perspective) {
             const double distance = side / unit - ball.radius;
             if (!(distance >= kRadiiAway * ball.radius)) return {};
-            return space * M44d().setTranslation(V3d(0, 0, distance));
+            return space * M44d().setScale(perspective_scale) *
+                   M44d().setTranslation(V3d(0, 0, perspective_scale * distance));
         }
         const double scale = unit / side;
         const auto edge = static_cast<float>(scale * ball.radius);
@@ -234,9 +305,12 @@ class Sharing {
         const uint32_t stands_for = firsts.front();
         const auto count = static_cast<uint32_t>(key.parts.size());
         const M44d first_from_camera = M44d(primitive(stands_for).camera_from_object.front()).inverse();
+        // Scaled about as the instance is, so that coordinates are those of a camera's space.
+        const double scale =
+            std::ldexp(1.0, std::ilogb(stretch_of(primitive(stands_for).camera_from_object.front()).x));
         const std::optional<M44d> model_from_first =
-            model_space(ball_of(stands_for, stands_for + count), std::ldexp(1.0, key.size));
-        if (!model_from_first) return;
+            model_space(ball_of(stands_for, stands_for + count), std::ldexp(1.0, key.size), scale);
+        if (!model_from_first) return;  // nor was it: size_of() has looked
         const auto object = static_cast<uint32_t>(result_.objects.size());
         result_.objects.push_back({static_cast<uint32_t>(result_.models.size()), stands_for, count});
         for (uint32_t i = 0; i < count; ++i) {
@@ -264,6 +338,7 @@ class Sharing {
     const bool moves_;
     const WhatRaysMeet& what_;
     Groups groups_;
+    std::map<const Shape*, Imath::Box3d> boxes_;
     SharedObjects result_;
 };
 

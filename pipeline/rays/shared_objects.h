@@ -12,36 +12,38 @@
 
 namespace trapeze {
 
-/// Models are primitives that are diced for all instances together.
+/// An object as it is diced once for several instances: its models are copies of one instance's primitives,
+/// each where a pixel is nowhere larger than at any of the instances.
 struct SharedObject {
     uint32_t first_model = 0;  ///< index in SharedObjects::models; the object's others follow it
-    uint32_t stands_for = 0;   ///< the scene's primitive of one instance that the first model is a copy of
-    uint32_t count = 0;        ///< of primitives of each instance
+    uint32_t stands_for = 0;   ///< the scene's primitive that the first model is a copy of
+    uint32_t count = 0;        ///< of models, and of primitives of each instance
 };
 
+/// Primitives are known by numbers: those below is_shared.size() are the scene's own, those from there on are
+/// models, in their order.
 struct SharedObjects {
     std::vector<SharedObject> objects;
     std::vector<ObjectPlace> places;  ///< object by object, in the order of the scene
-    /// Copies of one instance's primitives, each where a pixel is nowhere smaller than at any instance.
     std::vector<Primitive> models;
     std::vector<uint32_t> object_of_model;  ///< indices in `objects`
     std::vector<bool> is_shared;            ///< whether models stand for it, by the scene's primitive
 
-    /// Models are known by numbers, too: those after the scene's own primitives. The object of a primitive or
-    /// model, an index in `objects`; -1: none.
+    /// The object of a model, an index in `objects`; -1: the number is no model's.
     int object_of(uint32_t number) const {
         return number < is_shared.size() ? -1 : static_cast<int>(object_of_model[number - is_shared.size()]);
     }
-    /// The scene's primitive at a place, by the number of the model or of what it is a copy of.
-    uint32_t primitive_at(const ObjectPlace& place, uint32_t number) const {
-        return place.first_primitive + (own(number) - objects[place.object].stands_for);
-    }
-    /// The scene's own primitive that a number is of, or that a model is a copy of.
+    /// The scene's primitive that a model is a copy of: one instance's. Attributes of others are those of
+    /// primitive_at(). Another number is its own.
     uint32_t own(uint32_t number) const {
         const int object = object_of(number);
         if (object < 0) return number;
         const SharedObject& of = objects[static_cast<size_t>(object)];
         return of.stands_for + (number - static_cast<uint32_t>(is_shared.size()) - of.first_model);
+    }
+    /// The scene's primitive at a place, by the number of the model or of what it is a copy of.
+    uint32_t primitive_at(const ObjectPlace& place, uint32_t number) const {
+        return place.first_primitive + (own(number) - objects[place.object].stands_for);
     }
 };
 

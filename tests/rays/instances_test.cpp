@@ -3,65 +3,10 @@
 
 #include <set>
 
-#include "tests/rays/ray_world_harness.h"
+#include "tests/rays/herd_harness.h"
 
 namespace trapeze::testing {
 namespace {
-
-const std::string kPerspectiveView = "Projection \"perspective\" \"fov\" 40 Format 256 256 1 ";
-const std::string kOrthographicView = "Format 256 256 1 ";
-const std::string kBallObject = "ObjectBegin 1 Sphere 1 -1 1 360 ObjectEnd ";
-/// A box of six primitives, whose edges are shared by nothing but their places.
-const std::string kBoxObject =
-    "ObjectBegin 1 Polygon \"P\" [-1 -1 -1 1 -1 -1 1 1 -1 -1 1 -1] Polygon \"P\" [-1 -1 1 -1 1 1 1 1 1 1 -1 1] "
-    "Polygon \"P\" [-1 -1 -1 -1 -1 1 1 -1 1 1 -1 -1] Polygon \"P\" [-1 1 -1 1 1 -1 1 1 1 -1 1 1] "
-    "Polygon \"P\" [-1 -1 -1 -1 1 -1 -1 1 1 -1 -1 1] Polygon \"P\" [1 -1 -1 1 -1 1 1 1 1 1 1 -1] ObjectEnd ";
-
-std::string text(const V3f& v) {
-    return std::to_string(v.x) + ' ' + std::to_string(v.y) + ' ' + std::to_string(v.z) + ' ';
-}
-
-/// Where things are.
-struct Herd {
-    std::vector<V3f> places;
-    float radius;
-
-    /// Far enough away that each may share, at distances of 1 to 3.
-    explicit Herd(int count, float size = .5f) : radius(size) {
-        RayNumbers number;
-        for (int i = 0; i < count; ++i) places.emplace_back(number(-6, 6), number(-6, 6), number(10, 30));
-    }
-
-    /// Each with `before` before it.
-    std::string with(const std::string& thing, const std::function<std::string(size_t)>& before = {}) const {
-        std::string all;
-        for (size_t i = 0; i < places.size(); ++i)
-            all += "AttributeBegin " + (before ? before(i) : "") + "Translate " + text(places[i]) + "Scale " +
-                   text(V3f(radius)) + thing + " AttributeEnd ";
-        return all;
-    }
-    /// The nearest ball along a ray, and how far away it is; -1: none.
-    std::pair<int, float> nearest(const RaySegment& ray, float& silhouette) const {
-        std::pair<int, float> best{-1, kInfinity};
-        silhouette = kInfinity;
-        for (size_t i = 0; i < places.size(); ++i) {
-            const V3f to = places[i] - ray.origin;
-            const float along = to.dot(ray.direction), aside = (to - ray.direction * along).length();
-            silhouette = std::min(silhouette, std::abs(aside - radius));
-            const float half = std::sqrt(std::max(radius * radius - aside * aside, 0.0f));
-            const float distance = along - half > 0 ? along - half : along + half;
-            if (aside < radius && distance > 0 && distance < best.second)
-                best = {static_cast<int>(i), distance};
-        }
-        return best;
-    }
-};
-
-RaySegment some_ray(RayNumbers& number, const Herd& herd, float spread = 0) {
-    const V3f from(number(-8, 8), number(-8, 8), number(8, 32));
-    const auto target = static_cast<size_t>(number(0, static_cast<float>(herd.places.size()) - .01f));
-    return ray_to(from, herd.places[target] + number.in_cube(herd.radius) - from, spread);
-}
 
 TEST(RayInstances, TakeTheMemoryOfFew) {
     const Herd herd(200);
@@ -287,10 +232,14 @@ TEST(RayInstances, AreShadedAsTheirOwn) {
     expect_told(image, 8e-3f, 1000);  // flat micropolygons pass beside the balls
 }
 
-/// Instances are discs each by each.
+/// Instances are discs each by each, with normals on their own outsides.
 TEST(RayInstances, HaveDiscsOfTheirOwn) {
     const Herd herd(30);
-    const RayWorldScene scene(kBallObject + herd.with("ObjectInstance 1"), kPerspectiveView);
+    const auto turned = [](size_t i) {
+        return i % 3 == 1 ? std::string("ReverseOrientation ") : std::string();
+    };
+    const RayWorldScene scene(kBallObject + herd.with("Scale -1 1 1 ObjectInstance 1", turned),
+                              kPerspectiveView);
     const std::optional<Surfels> discs = scene.world().surfels(RayKind::Diffuse, size_t{1} << 30);
     ASSERT_TRUE(discs);
     std::vector<double> area(herd.places.size());
@@ -302,70 +251,11 @@ TEST(RayInstances, HaveDiscsOfTheirOwn) {
         area[grid.primitive_index] += discs->areas[i];
         const V3f out = discs->positions[i] - herd.places[grid.primitive_index];
         ASSERT_NEAR(out.length(), herd.radius, .01f);
-        ASSERT_GT(discs->normals[i].dot(out.normalized()), .98f);
+        const float side = grid.primitive_index % 3 == 1 ? -1.0f : 1.0f;
+        ASSERT_GT(side * discs->normals[i].dot(out.normalized()), .98f);
+        ASSERT_GT(side * grid.N.at(static_cast<size_t>(vertex)).dot(out), 0);
     }
     for (const double of_ball : area) EXPECT_NEAR(of_ball, 4 * 3.14159 * .25, .03);
-}
-
-/// What has grids of its own, as many as without objects.
-TEST(RayInstances, ShareOnlyWhatIsAlike) {
-    struct Kind {
-        const char* name;
-        std::string object, before;
-        int count = 8;
-        std::string options = {};
-    };
-    const std::string bent = "MotionBegin [0 1] Sphere 1 -1 1 360 Sphere .8 -.8 .8 360 MotionEnd ";
-    const Kind kinds[] = {
-        {"few", "Sphere 1 -1 1 360 ", "", 3},
-        {"displaced", "Sphere 1 -1 1 360 ",
-         "Attribute \"trace\" \"displacements\" 1 Displacement \"dented\" Attribute \"displacementbound\" "
-         "\"sphere\" .2 "},
-        {"facing the eye",
-         "Curves \"cubic\" [4] \"nonperiodic\" \"P\" [-1 0 0 -.3 1 0 .3 -1 0 1 0 0] "
-         "\"constantwidth\" .1 ",
-         ""},
-        {"bending", bent, "Attribute \"trace\" \"int samplemotion\" 1 ", 8, "Shutter 0 1 "},
-        {"solids", "Sphere 1 -1 1 360 ", "SolidBegin \"primitive\" "},
-        {"blurred", "Sphere 1 -1 1 360 ", "GeometricApproximation \"motionfactor\" 1 "},
-        {"small", "Sphere .01 -.01 .01 360 ", ""},
-        {"stretched", "Sphere 1 -1 1 360 ", "Scale 5 1 1 "},
-        {"seen by nobody",
-         "Attribute \"visibility\" \"int diffuse\" 0 \"int specular\" 0 \"int transmission\" 0 "
-         "Sphere 1 -1 1 360 ",
-         ""},
-    };
-    for (const Kind& kind : kinds) {
-        const Herd herd(kind.count);
-        const auto before = [&](size_t) { return kind.before; };
-        const std::string end = kind.before.starts_with("Solid") ? "SolidEnd " : "";
-        const RayWorldScene instances(
-            "ObjectBegin 1 " + kind.object + "ObjectEnd " + herd.with("ObjectInstance 1 " + end, before),
-            kPerspectiveView + kind.options);
-        const RayWorldScene apart(herd.with(kind.object + end, before), kPerspectiveView + kind.options);
-        EXPECT_EQ(instances.world().micropolygon_count(), apart.world().micropolygon_count()) << kind.name;
-    }
-    // At the eye each is as fine as it looks; farther away it shares.
-    Herd near(8);
-    for (size_t i = 0; i < 8; ++i) near.places[i] = V3f(.1f * static_cast<float>(i), 0, 1.2f);
-    EXPECT_EQ(RayWorldScene(kBallObject + near.with("ObjectInstance 1"), kPerspectiveView)
-                  .world()
-                  .micropolygon_count(),
-              RayWorldScene(near.with("Sphere 1 -1 1 360"), kPerspectiveView).world().micropolygon_count());
-    // Different rates, opacities and sides are apart: twice as much as alike.
-    const Herd herd(16);
-    const auto count = [&](const std::string& odd) {
-        return RayWorldScene(
-                   kBallObject + herd.with("ObjectInstance 1",
-                                           [&](size_t i) { return i % 2 == 0 ? std::string() : odd; }),
-                   kOrthographicView)
-            .world()
-            .micropolygon_count();
-    };
-    for (const char* odd : {"Opacity .5 .5 .5 ", "Sides 1 ", "Attribute \"visibility\" \"int specular\" 0 "})
-        EXPECT_EQ(count(odd), 2 * count("")) << odd;
-    for (const char* alike : {"Color 1 0 0 ", "Surface \"plastic\" ", "ReverseOrientation "})
-        EXPECT_EQ(count(alike), count("")) << alike;
 }
 
 }  // namespace

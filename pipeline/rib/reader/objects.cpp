@@ -74,6 +74,18 @@ std::shared_ptr<AttributeState> instance_attributes(const AttributeState& instan
     return result;
 }
 
+/// What is emitted meanwhile has an instance's number.
+class NumberedInstance {
+  public:
+    NumberedInstance(int number, int& now) : now_(now) { now_ = number; }
+    ~NumberedInstance() { now_ = -1; }
+    NumberedInstance(const NumberedInstance&) = delete;
+    NumberedInstance& operator=(const NumberedInstance&) = delete;
+
+  private:
+    int& now_;
+};
+
 }  // namespace
 
 /// The definition has a space of its own, in which nothing has happened yet, and keeps the attributes to tell
@@ -117,7 +129,7 @@ void SceneBuilder::instance(const std::string& handle) {
     const bool some_bare = std::any_of(object.primitives.begin(), object.primitives.end(),
                                        [](const ObjectPrimitive& p) { return p.solid < 0; });
     const int around = some_bare ? solid_of_surface(solids_here()) : -1;
-    if (!object_) instance_ = instances_++;
+    const NumberedInstance numbered(object_ ? -1 : instances_++, instance_);
     for (ObjectPrimitive& primitive : object.primitives) {
         const int solid = primitive.solid >= 0 ? first_solid + primitive.solid : around;
         const bool own = primitive.attributes != object.attributes;
@@ -133,7 +145,6 @@ void SceneBuilder::instance(const std::string& handle) {
         }
         place_instance(primitive, own ? merged : state_.current().attributes, solid);
     }
-    instance_ = -1;
 }
 
 /// A primitive of an object with the current transformation: into the scene, or into the object that is being
