@@ -194,7 +194,7 @@ bool choose_channels(const Display& display, Diagnostics& diagnostics, DisplayPl
     plan.depth = !plan.id && take("z");
     if (!mode.empty()) {
         diagnostics.warning(display.location,
-                            fmt::format("Display mode \"{}\" is not supported; \"{}\" is not written",
+                            fmt::format("Display mode \"{}\" is not supported; it is left out of \"{}\"",
                                         display.mode, plan.path),
                             "display-mode " + plan.path);
         return false;

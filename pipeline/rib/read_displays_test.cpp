@@ -124,6 +124,19 @@ TEST(ReadDisplays, ChannelsMayBeOtherNamesOfVariables) {
     EXPECT_EQ(r.scene().options.displays[1].name, "c.exr");
 }
 
+TEST(ReadDisplays, SourcesMayHaveTypes) {
+    const ReadOutcome r = read_text(
+        "DisplayChannel \"normal n\" \"string source\" [\"normal Nn\"]\n"
+        "DisplayChannel \"point p\" \"string source\" [\"varying point P\"]\n"
+        "Display \"c.exr\" \"openexr\" \"n,p\" WorldBegin WorldEnd\n");
+    EXPECT_TRUE(r.messages.empty());
+    const std::vector<Display>& displays = r.scene().options.displays;
+    ASSERT_EQ(displays.size(), 2u);
+    EXPECT_EQ(displays[0].variable->name, "N");
+    EXPECT_EQ(displays[0].layer, "n");
+    EXPECT_EQ(displays[1].variable->name, "P");
+}
+
 TEST(ReadDisplays, ChannelsOfIntegersAreFloats) {
     const ReadOutcome r =
         read_text("DisplayChannel \"int layer\" Display \"a.exr\" \"openexr\" \"layer\" WorldBegin WorldEnd");

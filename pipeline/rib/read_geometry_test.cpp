@@ -199,8 +199,6 @@ TEST(ReadGeometry, InvalidPrimitivesAreSkipped) {
         "SubdivisionMesh \"loop\" [4] [0 1 2 3] " + kQuad,
         "SubdivisionMesh \"catmull-clark\" [4] [0 1 2] " + kQuad,
         "SubdivisionMesh \"catmull-clark\" [4] [0 1 2 3] [\"crease\"] [2 1 1 1] [0 1] [2] " + kQuad,
-        "SubdivisionMesh \"catmull-clark\" [4] [0 1 2 3] [\"crease\"] [2 -1] [0 1] [2] " + kQuad,
-        "SubdivisionMesh \"catmull-clark\" [4] [0 1 2 3] [\"crease\"] [9 1] [0 1] [2] " + kQuad,
         "Patch \"bilinear\" " + some_points(3),
         "Patch \"bicubic\" " + some_points(15),
         "Patch \"quadratic\" " + kQuad,
@@ -222,6 +220,31 @@ TEST(ReadGeometry, InvalidPrimitivesAreSkipped) {
 }
 
 /// What is left out of a primitive that stays.
+/// What is too much of a mesh costs no more than itself.
+TEST(ReadGeometry, WhatIsTooMuchIsLeftOut) {
+    const ReadOutcome extra = read_world("PointsPolygons [4] [0 1 2 3 0 1] " + kQuad);
+    EXPECT_THAT(extra.messages, ElementsAre(HasSubstr("has 6 numbers, needs 4; the rest is left out")));
+    EXPECT_EQ(std::get<PolygonMesh>(extra.primitive().shape().topology).vertices,
+              (std::vector<int>{0, 1, 2, 3}));
+    const auto tags = [](const ReadOutcome& r) {
+        return std::get<SubdivisionMesh>(r.primitive().shape().topology).tags.size();
+    };
+    for (const char* counts : {"[2 -1 0 0]", "[9 1 0 0]"}) {
+        const ReadOutcome few = read_world(
+            "SubdivisionMesh \"catmull-clark\" [4] [0 1 2 3] "
+            "[\"interpolateboundary\" \"crease\" \"hole\"] [0 0 " +
+            std::string(counts + 1) + " [0 1] [2] " + kQuad);
+        EXPECT_THAT(few.messages,
+                    ElementsAre(HasSubstr("wants more arguments than there are; it and those after it "
+                                          "are left out")));
+        EXPECT_EQ(tags(few), 1u) << counts;
+    }
+    const ReadOutcome none = read_world(
+        "SubdivisionMesh \"catmull-clark\" [4] [0 1 2 3] [\"interpolateboundary\"] [] [] [] " + kQuad);
+    EXPECT_TRUE(none.messages.empty());
+    EXPECT_EQ(tags(none), 1u);
+}
+
 TEST(ReadGeometry, WrongVariablesAreLeftOut) {
     for (const char* variable :
          {"\"Cs\" [1 0]", "\"N\" [0 0 1 0 0 1 0 0 1]", "\"st\" [0 0 1 1]", "\"facevarying float f\" [1 2 3]",

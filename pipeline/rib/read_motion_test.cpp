@@ -224,6 +224,35 @@ TEST(ReadMotion, WrongBlocksAreReported) {
     }
 }
 
+/// Nothing of the block is taken for what stands behind it.
+TEST(ReadMotion, BlocksWhoseTimesDoNotGrowStandStill) {
+    for (const char* times : {"[0 0]", "[1 0]"}) {
+        const std::string begin = std::string("MotionBegin ") + times + ' ';
+        const ReadOutcome r = read_shutter("0 1", begin + "Translate 1 0 0 Translate 5 0 0 MotionEnd " +
+                                                      begin + "Color 1 0 0 Color 0 1 0 MotionEnd " + begin +
+                                                      "Sphere 2 -2 2 360 Sphere 3 -3 3 360 MotionEnd ");
+        EXPECT_THAT(r.messages, ElementsAre(HasSubstr("times must grow; the first of what the block holds")));
+        ASSERT_EQ(r.count(), 1u);
+        EXPECT_EQ(r.primitive().key_count(), 1);
+        EXPECT_EQ(r.primitive().camera_from_object[0].translation().x, 1);
+        EXPECT_EQ(r.attributes().color, V3f(1, 0, 0));
+        EXPECT_THAT(radii_of(r.primitive()), ElementsAre(2));
+    }
+}
+
+TEST(ReadMotion, LaterShapesMayLackVariables) {
+    const ReadOutcome r = read_shutter("0 1",
+                                       "MotionBegin [0 1] "
+                                       "Polygon \"P\" [0 0 0 1 0 0 0 1 0] \"st\" [0 0 1 0 0 1] "
+                                       "Polygon \"P\" [0 0 4 1 0 4 0 1 4] MotionEnd ");
+    EXPECT_THAT(r.messages, ElementsAre(HasSubstr("later shapes of the motion lack variables")));
+    ASSERT_EQ(r.primitive().shape_keys.size(), 2u);
+    EXPECT_EQ(r.primitive().shape_keys[1]->variables.find("P")->floats[2], 4);
+    EXPECT_EQ(r.primitive().shape_keys[1]->variables.values.size(),
+              r.primitive().shape().variables.values.size());
+    EXPECT_GT(r.primitive().shape().variables.values.size(), 1u);
+}
+
 TEST(ReadMotion, TransformationsDoNotPileUpWithoutEnd) {
     std::string text;
     for (int i = 0; i < 1001; ++i) text += "MotionBegin [0 1] Translate 0 0 0 Translate 0 0 1 MotionEnd\n";

@@ -72,6 +72,18 @@ TEST(ReadRis, MetalsHaveTheColourThatTheyReflect) {
     EXPECT_EQ(numbers(*r.attributes(1).surface, "specularcolor"), (std::vector<float>{.25f, .25f, .25f}));
 }
 
+TEST(ReadRis, WhatIsReflectedMayBeAPatterns) {
+    const ReadOutcome r = read_ris_world(
+        "Pattern \"PxrMix\" \"B\" \"color color1\" [1 .75 .25]\n"
+        "Bxdf \"PxrSurface\" \"gold\" \"float diffuseGain\" [0] \"reference color specularFaceColor\" "
+        "[\"B:resultRGB\"]\n" +
+        kBall +
+        "Bxdf \"PxrSurface\" \"lamp\" \"float glowGain\" [2] \"reference color glowColor\" [\"B:resultRGB\"]\n" +
+        kBall);
+    EXPECT_NEAR(r.attributes(0).color.y, 0.6f, 1e-6f);
+    EXPECT_EQ(numbers(*r.attributes(1).surface, "emission"), (std::vector<float>{2, 1.5f, .5f}));
+}
+
 /// As RenderMan for Maya writes it: the second names the first.
 TEST(ReadRis, MaterialsAreKnownByTheirIds) {
     const ReadOutcome r = read_ris_world(

@@ -144,6 +144,30 @@ TEST(ReadShaders, AreaLightsThatNothingSwitchesShineOnAll) {
     EXPECT_EQ(open.attributes(2).lights.size(), 1u);
 }
 
+/// BMRT's, as others have it.
+TEST(ReadShaders, LightsCastShadowsWhereAttributesSaySo) {
+    const ReadOutcome r = read_world(
+        "LightSource \"distantlight\" 1 Attribute \"light\" \"shadows\" \"on\" "
+        "LightSource \"distantlight\" 2 \"intensity\" 3 LightSource \"pointlight\" 3 LightSource \"spotlight\" 4 "
+        "LightSource \"own\" 5 " +
+        kSphere + "Attribute \"render\" \"casts_shadows\" \"none\" " + kSphere +
+        "Attribute \"render\" \"casts_shadows\" \"shade\" " + kSphere +
+        "Attribute \"light\" \"shadows\" \"off\" LightSource \"spotlight\" 6 " + kSphere);
+    EXPECT_TRUE(r.messages.empty());
+    std::vector<std::string> names;
+    for (const auto& light : r.attributes(3).lights) names.push_back(light->shader.name);
+    EXPECT_THAT(
+        names, ElementsAre("distantlight", "shadowdistant", "shadowpoint", "shadowspot", "own", "spotlight"));
+    const ParameterList& traced = r.attributes(3).lights[1]->shader.parameters;
+    EXPECT_EQ(traced.string_or("shadowname", ""), "raytrace");
+    EXPECT_EQ(traced.float_or("intensity", 0), 3);
+    EXPECT_EQ(r.attributes(3).lights[2]->shader.parameters.string_or("sfny", ""), "raytrace");
+    EXPECT_TRUE(r.attributes(0).rays.transmission);
+    EXPECT_EQ(r.attributes(0).rays.transmission_hits, RayAttributes::HitMode::Primitive);
+    EXPECT_FALSE(r.attributes(1).rays.transmission);
+    EXPECT_EQ(r.attributes(2).rays.transmission_hits, RayAttributes::HitMode::Shader);
+}
+
 TEST(ReadShaders, LightsMayLackHandles) {
     const ReadOutcome r = read_world(
         "LightSource \"pointlight\" \"intensity\" 3 \"from\" [1 2 3] "

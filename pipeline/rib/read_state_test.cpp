@@ -118,6 +118,27 @@ TEST(ReadState, CameraOptions) {
 }
 
 /// Parameters of shaders cannot be called so.
+TEST(ReadState, CameraOptionsOfOthers) {
+    const auto options = [](const std::string& text) {
+        return read_text(text + " WorldBegin WorldEnd\n").scene().options;
+    };
+    EXPECT_EQ(options("DepthOfField 2 1 5").f_stop, 2);
+    for (const char* none : {"DepthOfField 2 1 5 DepthOfField -", "DepthOfField 2 1 5 DepthOfField \"-\"",
+                             "DepthOfField 2 1 5 DepthOfField -\n"})
+        EXPECT_EQ(options(none).f_stop, kInfinity) << none;
+    // What sees all around is seen straight ahead.
+    const ReadOutcome wide = read_text("Projection \"fisheye\" \"fov\" 180 WorldBegin WorldEnd\n");
+    EXPECT_THAT(wide.messages, ElementsAre(HasSubstr("\"fisheye\" is not supported; perspective is used")));
+    EXPECT_EQ(wide.scene().options.projection, "perspective");
+    EXPECT_EQ(wide.scene().options.fov, 120);
+    EXPECT_EQ(options("Projection \"cylindrical\" \"fov\" 60").fov, 60);
+    EXPECT_EQ(options("Projection \"\"").projection, "orthographic");
+    EXPECT_TRUE(read_text("Quantize \"Cs\" 100 0 255 0 WorldBegin WorldEnd\n").messages.empty());
+    EXPECT_EQ(
+        read_world("Attribute \"dice\" \"float micropolygonlength\" .5 " + kSphere).attributes().shading_rate,
+        .25f);
+}
+
 TEST(ReadState, TheBackgroundsColorAndAlphaHaveOtherNamesInItsShader) {
     const ReadOutcome r = read_text(
         "Imager \"background\" \"color color\" [.1 .2 .3] \"float alpha\" [0] WorldBegin WorldEnd\n"

@@ -59,7 +59,8 @@ ShaderLibrary::Compiled& ShaderLibrary::compiled(const std::string& name, Source
     rsl::Source source;
     std::string stem = name;
     // Some scenes name compiled shaders with their path, or the source itself.
-    for (const std::string_view ending : {".sl", ".slo", ".slx", ".sdr", ".sle", ".sdl"})
+    for (const std::string_view ending :
+         {".sl", ".slo", ".slx", ".sdr", ".sle", ".sdl", ".slc", ".so", ".dll"})
         if (stem.ends_with(ending)) stem.resize(stem.size() - ending.size());
     // A name from another machine is also tried without its leading folders.
     std::vector<std::string> names = other_names(stem);

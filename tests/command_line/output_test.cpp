@@ -223,7 +223,7 @@ TEST(Displays, ThatCannotBeHonouredAreNamedOneByOne) {
         {"a.rib:1:1: warning: Display driver \"vortech\" is not known; \"a.exr\" is written as its "
          "extension says",
          "a.rib:2:1: warning: Display driver \"teleporter\"",
-         "a.rib:3:1: warning: Display mode \"bgr\" is not supported; \"c.exr\" is not written",
+         "a.rib:3:1: warning: Display mode \"bgr\" is not supported; it is left out of \"c.exr\"",
          "a.rib:4:1: warning: Display mode \"sepia\"",
          "a.rib:5:1: warning: Display \"framebuffer\": no window is opened; \"e.exr\" is written instead",
          "a.rib:6:1: warning: Display \"it\"",

@@ -54,12 +54,13 @@ void MotionCollector::begin(std::vector<float> times) {
     if (times.size() > kMostTimes)
         throw RequestError{"more than " + std::to_string(kMostTimes) + " times", {}};
     if (!std::isfinite(times.back() - times.front())) throw RequestError{"times are too far apart", {}};
-    if (std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) != times.end())
-        throw RequestError{"times must grow", {}};
+    const bool grows = std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
+    if (!grows) report_.error("times must grow; the first of what the block holds is used");
     state_.open(BlockKind::Motion, report_.at());
     block_ = {};
     block_.at = report_.at();
     block_.times = std::move(times);
+    block_.stands_still = !grows;
 }
 
 /// Few different requests stand in one block: they are searched one by one.
@@ -107,6 +108,8 @@ void MotionCollector::set_transform(const TransformArguments* matrix) {
 RequestText MotionCollector::as_shutter_opens(const std::vector<RequestText>& keys,
                                               const std::vector<float>& times) {
     const std::string& name = keys[0].name;
+    const bool grows = std::ranges::adjacent_find(times, std::greater_equal<>()) == times.end();
+    if (!grows) return keys[0];  // which has been told
     if (keys.size() != times.size()) {
         report_.error(name + " occurs " + std::to_string(keys.size()) + " times for " +
                       std::to_string(times.size()) + " times of the motion; the first is used");
@@ -133,8 +136,8 @@ RequestText MotionCollector::as_shutter_opens(const std::vector<RequestText>& ke
 std::optional<MovingShape> MotionCollector::resolve(MotionBlock block) {
     const size_t given = std::max(block.transforms.size(), block.shapes.size());
     if (given == 0) return {};
-    const bool complete = given == block.times.size();
-    if (!complete)
+    const bool complete = given == block.times.size() && !block.stands_still;
+    if (given != block.times.size())
         report_.error(block.request + " occurs " + std::to_string(given) + " times for " +
                       std::to_string(block.times.size()) + " times of the motion; the first is used");
     if (block.transforms.empty()) return resolved_shape(std::move(block), complete);
@@ -163,6 +166,10 @@ MovingShape MotionCollector::resolved_shape(MotionBlock block, bool complete) {
         report_.note(block.at,
                      block.request + ": its colours do not move; those as the shutter opens are used",
                      "motion-of-colours");
+    if (complete && give_missing_variables(block.shapes))
+        report_.warn_once(
+            block.request + ": later shapes of the motion lack variables; they have the first one's",
+            "motion-variables");
     if (complete && !can_deform(block.shapes)) {
         report_.error("the shapes of the motion differ in topology or variables; the first is used");
         block.shapes.resize(1);

@@ -20,7 +20,8 @@ struct MotionBlock {
     std::vector<float> times;
     std::string request;  ///< what of transforms or geometry the block holds; empty: nothing yet
     TransformKind transform_kind = TransformKind::Matrix;
-    bool absolute = false;  ///< Transform, which replaces the current transformation
+    bool stands_still = false;  ///< its times do not grow
+    bool absolute = false;      ///< Transform, which replaces the current transformation
     std::vector<TransformArguments> transforms;
     std::vector<ShapePointer> shapes;
     /// Requests of other kinds (colours, shaders), which do not move: by name, in the order of the first

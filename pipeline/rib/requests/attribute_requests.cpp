@@ -171,6 +171,9 @@ void attribute(OptionContext& r, ArgumentCursor& c) {
         set_ray_attribute(category, value, state.attributes.rays);
         if (category == "cull" && value.name == "hidden") state.attributes.cull_hidden = number != 0;
         if (category == "dice") set_dice(state.attributes.dice, value.name, number);
+        // The later RenderMan's, of a side in pixels.
+        if (category == "dice" && value.name == "micropolygonlength" && number > 0)
+            state.attributes.shading_rate = number * number;
     }
 }
 

@@ -114,9 +114,9 @@ Display with_mode(OptionContext& r, Display display, const std::string& mode) {
 /// Whether the display shows some of the paths that light takes, which are not told apart here.
 bool shows_paths(OptionContext& r, const Display& display) {
     if (display.parameters.string_or("source", "").find("lpe:") == std::string::npos) return false;
-    r.report.warn_once(
-        "there are no paths of light to choose from; " + in_quotes(display.name) + " is not written",
-        "lpe " + display.name);
+    r.report.warn_once("there are no paths of light to choose from; " + in_quotes(display.mode) +
+                           " is left out of " + in_quotes(display.name),
+                       "lpe " + display.name);
     return true;
 }
 
@@ -144,6 +144,12 @@ void display(OptionContext& r, ArgumentCursor& c) {
     }
 }
 
+/// The variable that a "source" names, with its type before it or without: "normal Nn", "Ci".
+std::string source_variable(const std::string& source) {
+    std::string name = source.substr(source.find_last_of(' ') + 1);
+    return name == "Nn" ? "N" : name;  // as PRMan calls it where it is of unit length
+}
+
 /// DisplayChannel declaration parameters: these are defaults of the displays that name the channel. "source"
 /// names another variable of the shader, whose values the channel shows under its own name.
 void display_channel(OptionContext& r, ArgumentCursor& c) {
@@ -156,7 +162,7 @@ void display_channel(OptionContext& r, ArgumentCursor& c) {
             throw RequestError{in_quotes(token) + " is no float, color, point, vector or normal", {}};
         return;
     }
-    const std::string channel = variable->name, source = parameters.string_or("source", "");
+    const std::string channel = variable->name, source = source_variable(parameters.string_or("source", ""));
     // Others, "lpe:..." and the like, are not for names.
     if (can_name_channels(source) && source.find(':') == std::string::npos) variable->name = source;
     r.state.scope().display_channels[channel] = {*variable, std::move(parameters)};

@@ -78,21 +78,22 @@ void crop_window(OptionContext& r, ArgumentCursor& c) {
 
 /// Projection name parameters: "perspective" with "fov" in degrees along the smaller side, or "orthographic".
 void projection(OptionContext& r, ArgumentCursor& c) {
+    constexpr float kWidest = 120;  // degrees, of what stands for wider projections
     Options& o = changeable_options(r);
     std::string name = c.string("the projection's name");
     if (name == "PxrCamera" || name == "PxrPerspective") name = "perspective";  // RIS's plugins
     if (name == "PxrOrthographic") name = "orthographic";
     const ParameterList parameters = r.parameters(c);
-    const float fov = parameters.float_or("fov", 90);
-    require(fov > 0 && fov < 180, "\"fov\" must be between 0 and 180");
+    float fov = parameters.float_or("fov", 90);
+    if (name.empty() || name == "null") name = "orthographic";
     if (name != "perspective" && name != "orthographic") {
-        if (!name.empty() && name != "null")
-            r.report.warn_once(in_quotes(name) + " is not supported; orthographic is used",
-                               "projection-" + name);
-        o.projection = "orthographic";
-    } else {
-        o.projection = name;
+        // Others see all around, or nearly: of that what lies ahead.
+        r.report.warn_once(in_quotes(name) + " is not supported; perspective is used", "projection-" + name);
+        name = "perspective";
+        if (fov > 0) fov = std::min(fov, kWidest);
     }
+    require(fov > 0 && fov < 180, "\"fov\" must be between 0 and 180");
+    o.projection = name;
     o.fov = fov;
     // PxrCamera's lens.
     const float f_stop = parameters.float_or("fStop", 0), length = parameters.float_or("focalLength", 0),
@@ -222,7 +223,9 @@ void quantize(OptionContext& r, ArgumentCursor& c) {
     value.name = c.string("the type");
     value.floats = c.numbers(4, "one, min, max and dither");
     if (value.name == "rgb") value.name = "rgba";  // as scenes in the world write it
-    if (value.name != "rgba" && value.name != "z")
+    const bool names_a_variable =
+        value.name == "Ci" || value.name == "Cs" || value.name == "Oi" || value.name == "Os";
+    if (value.name != "rgba" && value.name != "z" && !names_a_variable)
         r.report.warn_once(in_quotes(value.name) + " is not known: the type is \"rgba\" or \"z\"",
                            "quantize-" + value.name);
     value.declaration.array_length = 4;

@@ -23,12 +23,16 @@ int64_t checked_sum(const std::vector<int>& counts, int smallest, const char* wh
     return sum;
 }
 
-/// Throws a RequestError that says how many numbers there should be.
-void expect_length(size_t got, int64_t wanted, const char* what) {
-    if (static_cast<int64_t>(got) != wanted)
-        throw RequestError{
-            std::string(what) + " has " + std::to_string(got) + " numbers, needs " + std::to_string(wanted),
-            {}};
+/// Leaves out what is too much, with an error. Throws a RequestError that says how many numbers there should
+/// be where there are fewer.
+void expect_length(GeometryContext& r, std::vector<int>& numbers, int64_t wanted, const char* what) {
+    const auto got = static_cast<int64_t>(numbers.size());
+    if (got == wanted) return;
+    const std::string problem =
+        std::string(what) + " has " + std::to_string(got) + " numbers, needs " + std::to_string(wanted);
+    if (got < wanted) throw RequestError{problem, {}};
+    r.report.error(problem + "; the rest is left out");
+    numbers.resize(static_cast<size_t>(wanted));
 }
 
 /// What is wrong with a tag; empty when nothing is. RISpec 5.3: a crease is a chain of n vertices with one
@@ -132,7 +136,7 @@ void points_polygons(GeometryContext& r, ArgumentCursor& c) {
     mesh.vertices_per_loop = c.int_array("the numbers of vertices");
     mesh.loops_per_polygon.assign(mesh.vertices_per_loop.size(), 1);
     mesh.vertices = c.int_array("the vertices");
-    expect_length(mesh.vertices.size(), checked_sum(mesh.vertices_per_loop, 0, "a polygon"),
+    expect_length(r, mesh.vertices, checked_sum(mesh.vertices_per_loop, 0, "a polygon"),
                   "the array of vertices");
     add_mesh(r, c, "PointsPolygons", std::move(mesh));
 }
@@ -143,9 +147,9 @@ void points_general_polygons(GeometryContext& r, ArgumentCursor& c) {
     mesh.loops_per_polygon = c.int_array("the numbers of loops");
     mesh.vertices_per_loop = c.int_array("the numbers of vertices");
     mesh.vertices = c.int_array("the vertices");
-    expect_length(mesh.vertices_per_loop.size(), checked_sum(mesh.loops_per_polygon, 0, "a polygon"),
+    expect_length(r, mesh.vertices_per_loop, checked_sum(mesh.loops_per_polygon, 0, "a polygon"),
                   "the numbers of vertices");
-    expect_length(mesh.vertices.size(), checked_sum(mesh.vertices_per_loop, 0, "a loop"),
+    expect_length(r, mesh.vertices, checked_sum(mesh.vertices_per_loop, 0, "a loop"),
                   "the array of vertices");
     add_mesh(r, c, "PointsGeneralPolygons", std::move(mesh));
 }
@@ -153,9 +157,10 @@ void points_general_polygons(GeometryContext& r, ArgumentCursor& c) {
 /// Tags, numbers of their arguments (two or, with strings, three for each tag), integers, floats, strings.
 /// The arguments of all tags stand one after another in three common arrays; each tag takes its next ones
 /// from each of them.
-std::vector<SubdivisionMesh::Tag> subdivision_tags(ArgumentCursor& c) {
+std::vector<SubdivisionMesh::Tag> subdivision_tags(GeometryContext& r, ArgumentCursor& c) {
     const std::vector<std::string> names = c.string_array("the tags");
-    const std::vector<int> counts = c.int_array("the tags' numbers of arguments");
+    std::vector<int> counts = c.int_array("the tags' numbers of arguments");
+    if (counts.empty()) counts.resize(2 * names.size());  // tags without arguments, as some files have it
     const std::vector<int> ints = c.int_array("the tags' integers");
     const std::vector<float> floats = c.number_array("the tags' floats");
     const size_t per_tag = names.empty() ? 2 : counts.size() / names.size();
@@ -173,8 +178,11 @@ std::vector<SubdivisionMesh::Tag> subdivision_tags(ArgumentCursor& c) {
         tag.name = names[i];
         for (size_t k = 0; k < per_tag; ++k) {
             const int count = counts[i * per_tag + k];
-            if (count < 0 || at[k] + static_cast<size_t>(count) > sizes[k])
-                throw RequestError{"tag " + in_quotes(names[i]) + " wants more arguments than there are", {}};
+            if (count < 0 || at[k] + static_cast<size_t>(count) > sizes[k]) {
+                r.report.error("tag " + in_quotes(names[i]) +
+                               " wants more arguments than there are; it and those after it are left out");
+                return tags;
+            }
             const auto from = static_cast<std::ptrdiff_t>(at[k]), to = from + count;
             if (k == 0) tag.ints.assign(ints.begin() + from, ints.begin() + to);
             if (k == 1) tag.floats.assign(floats.begin() + from, floats.begin() + to);
@@ -194,7 +202,7 @@ bool has_tags(const ArgumentCursor& c) {
 }
 
 /// Faces of fewer than three vertices are sorted out later (leave_out_degenerate_faces).
-SubdivisionMesh read_subdivision(ArgumentCursor& c) {
+SubdivisionMesh read_subdivision(GeometryContext& r, ArgumentCursor& c) {
     SubdivisionMesh mesh;
     const std::string scheme = c.string("the scheme");
     if (scheme == "catmull-clark")
@@ -207,24 +215,24 @@ SubdivisionMesh read_subdivision(ArgumentCursor& c) {
         throw RequestError{"no scheme " + in_quotes(scheme), {}};
     mesh.vertices_per_face = c.int_array("the numbers of vertices");
     mesh.vertices = c.int_array("the vertices");
-    expect_length(mesh.vertices.size(), checked_sum(mesh.vertices_per_face, 0, "a face"),
+    expect_length(r, mesh.vertices, checked_sum(mesh.vertices_per_face, 0, "a face"),
                   "the array of vertices");
     if (mesh.scheme == SubdivisionMesh::Scheme::Loop &&
         std::any_of(mesh.vertices_per_face.begin(), mesh.vertices_per_face.end(),
                     [](int n) { return n > 3; }))
         throw RequestError{"scheme \"loop\" needs triangles", {}};
-    if (has_tags(c)) mesh.tags = subdivision_tags(c);
+    if (has_tags(c)) mesh.tags = subdivision_tags(r, c);
     return mesh;
 }
 
 /// SubdivisionMesh scheme [vertices of each face] [indices] [tags] [counts] [integers] [floats] parameters.
 void subdivision_mesh(GeometryContext& r, ArgumentCursor& c) {
-    add_mesh(r, c, "SubdivisionMesh", read_subdivision(c));
+    add_mesh(r, c, "SubdivisionMesh", read_subdivision(r, c));
 }
 
 /// PRMan's, whose tags may also edit vertices, edges and faces of finer levels: that is left out.
 void hierarchical_subdivision_mesh(GeometryContext& r, ArgumentCursor& c) {
-    SubdivisionMesh mesh = read_subdivision(c);
+    SubdivisionMesh mesh = read_subdivision(r, c);
     std::erase_if(mesh.tags, [&](const SubdivisionMesh::Tag& tag) {
         const bool is_edit = tag.name.ends_with("edit");
         if (is_edit)

@@ -60,6 +60,14 @@ void set_ray_attribute(std::string_view category, const Parameter& value, RayAtt
         rays.diffuse = rays.specular = (bits & 2) != 0;
         rays.transmission = (bits & 4) != 0;
     }
+    // BMRT's: what follows casts shadows, by its Opacity unless it says that its shader is to be asked.
+    if (category == "light" && value.name == "shadows" && !value.strings.empty() && value.strings[0] == "on")
+        rays.transmission = true, rays.transmission_hits = RayAttributes::HitMode::Primitive;
+    if (category == "render" && value.name == "casts_shadows" && !value.strings.empty()) {
+        rays.transmission = value.strings[0] != "none";
+        rays.transmission_hits =
+            value.strings[0] == "shade" ? RayAttributes::HitMode::Shader : RayAttributes::HitMode::Primitive;
+    }
     if (category == "shade" && !value.strings.empty()) set_hit_mode(value.name, value.strings[0], rays);
     if (category == "grouping" && value.name == "membership" && !value.strings.empty())
         change_membership(value.strings[0], rays.groups);

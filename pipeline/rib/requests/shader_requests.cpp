@@ -86,6 +86,28 @@ bool has_handle(const ArgumentCursor& c) {
     return second->kind == Argument::Kind::String;
 }
 
+/// Lights that come after Attribute "light" "shadows" "on" cast shadows, as BMRT has it, with rays: the
+/// standard lights by their kin with maps, which take "raytrace" for one. Others have shaders of their own
+/// for that.
+void cast_shadows(LightContext& r, ShaderInstance& shader) {
+    const auto& user = r.state.attributes().attributes.user;
+    const auto light = user.find("light");
+    if (light == user.end() || light->second.string_or("shadows", "") != "on") return;
+    const auto trace = [&](const char* name, std::initializer_list<const char*> maps) {
+        shader.name = name;
+        for (const char* const map : maps) {
+            Parameter parameter;
+            parameter.name = map, parameter.declaration.type = ValueType::String;
+            parameter.strings = {"raytrace"};
+            shader.parameters.set(std::move(parameter));
+        }
+    };
+    if (shader.name == "distantlight") return trace("shadowdistant", {"shadowname"});
+    if (shader.name == "spotlight") return trace("shadowspot", {"shadowname"});
+    if (shader.name == "pointlight")
+        return trace("shadowpoint", {"sfpx", "sfnx", "sfpy", "sfny", "sfpz", "sfnz"});
+}
+
 /// A light of RSL: its shader, then its handle, which is text here whether it was a number or not.
 std::shared_ptr<LightInstance> light_of(LightContext& r, ArgumentCursor& c) {
     auto light = std::make_shared<LightInstance>();
@@ -95,6 +117,7 @@ std::shared_ptr<LightInstance> light_of(LightContext& r, ArgumentCursor& c) {
     else
         r.report.warn_once("the light has no handle, and cannot be switched", "light-without-handle");
     light->shader.parameters = r.shader_parameters(c);
+    cast_shadows(r, light->shader);
     return light;
 }
 

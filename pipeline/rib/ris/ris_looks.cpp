@@ -133,12 +133,13 @@ std::optional<Tint> tint_of(const RisParameters& parameters, std::string_view na
 /// What a conductor, or glass, reflects of what comes straight. Mode 1 is physical: Fresnel's reflectance of
 /// a conductor at normal incidence, ((n - 1)^2 + k^2) / ((n + 1)^2 + k^2), of which the edge colour is a
 /// tint.
-V3f reflected(const RisParameters& parameters) {
-    const V3f edge = parameters.color("specularEdgeColor").value_or(V3f(0, 0, 0));
-    if (parameters.number_or("specularFresnelMode", 0) != 1)
-        return parameters.color("specularFaceColor").value_or(V3f(0, 0, 0));
-    const V3f n = parameters.color("specularIor").value_or(V3f(1.5f, 1.5f, 1.5f)),
-              k = parameters.color("specularExtinctionCoeff").value_or(V3f(0, 0, 0));
+V3f reflected(const RisParameters& parameters, const RisNetwork& network) {
+    const auto color = [&](std::string_view name, float without) {
+        return tint_of(parameters, name, network).value_or(Tint{V3f(without)}).color;
+    };
+    const V3f edge = color("specularEdgeColor", 0);
+    if (parameters.number_or("specularFresnelMode", 0) != 1) return color("specularFaceColor", 0);
+    const V3f n = color("specularIor", 1.5f), k = color("specularExtinctionCoeff", 0);
     V3f result;
     for (int i = 0; i < 3; ++i) {
         const float k2 = k[i] * k[i], down = (n[i] - 1) * (n[i] - 1) + k2, up = (n[i] + 1) * (n[i] + 1) + k2;
@@ -168,15 +169,16 @@ void take_lobes(const RisParameters& p, const RisNetwork& network, RisLook& look
     add("diffuseGain", 1, "diffuseColor", V3f(0.18f, 0.18f, 0.18f));
     add("subsurfaceGain", 0, "subsurfaceColor", V3f(0.83f, 0.791f, 0.753f));
     add("singlescatterGain", 0, "singlescatterColor", V3f(0.83f, 0.791f, 0.753f));
-    look.specular = reflected(p);
+    look.specular = reflected(p, network);
     // A mirror shows what is around it, which here nothing traces: most of that is taken to be as bright as
     // lit surfaces are.
     look.color = look.color.value_or(V3f(0, 0, 0)) + look.specular * 0.8f;
     look.roughness = p.number_or("specularRoughness", 0.2f);
-    look.emission = p.color("glowColor").value_or(V3f(1, 1, 1)) * p.number_or("glowGain", 0);
+    look.emission = tint_of(p, "glowColor", network).value_or(Tint{}).color * p.number_or("glowGain", 0);
     const float through = std::clamp(p.number_or("refractionGain", 0), 0.0f, 1.0f);
     if (through > 0) {
-        look.color = *look.color + p.color("refractionColor").value_or(V3f(1, 1, 1)) * (0.2f * through);
+        look.color =
+            *look.color + tint_of(p, "refractionColor", network).value_or(Tint{}).color * (0.2f * through);
         look.specular = V3f(1, 1, 1);
         look.opacity = 1 - 0.7f * through;
     }

@@ -109,6 +109,24 @@ bool can_deform(const std::vector<ShapePointer>& shapes) {
     });
 }
 
+/// Positions have to be their own; all else may be the first one's.
+bool give_missing_variables(std::vector<ShapePointer>& shapes) {
+    bool given = false;
+    const std::vector<Parameter>& first = shapes.front()->variables.values;
+    for (size_t i = 1; i < shapes.size(); ++i) {
+        std::shared_ptr<Shape> whole;
+        for (const Parameter& value : first) {
+            if (value.name == "P" || value.name == "Pw" || shapes[i]->variables.find(value.name)) continue;
+            if (!whole) whole = std::make_shared<Shape>(*shapes[i]);
+            whole->variables.set(value);
+        }
+        if (!whole) continue;
+        shapes[i] = std::move(whole);
+        given = true;
+    }
+    return given;
+}
+
 /// A shape of another class or length for its colours is given those of the pose before the shutter opens, or
 /// none: the later poses have to be of one form.
 bool use_colors_at_open(std::vector<ShapePointer>& shapes, const std::vector<float>& times, float open) {

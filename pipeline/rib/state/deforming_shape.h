@@ -18,6 +18,9 @@ float key_time(float open, float close, int key, int keys);
 /// order of variables.
 bool can_deform(const std::vector<ShapePointer>& shapes);
 
+/// Gives shapes what they lack of the first one's variables, but for positions. Whether any did.
+bool give_missing_variables(std::vector<ShapePointer>& shapes);
+
 /// Colours ("Cs", "Os") do not move: what the surface has as the shutter opens is shaded. Poses that have
 /// other ones than that which the shutter opens with are given its own. Whether some do not stay the same.
 bool use_colors_at_open(std::vector<ShapePointer>& shapes, const std::vector<float>& times, float open);

@@ -269,6 +269,11 @@ void Lexer::scan() {
         scan_string();
     } else if (c == '\'' && scan_single_quoted()) {
         return;
+    } else if (c == '-' && (next_ + 1 == end_ || is_space(next_[1]))) {
+        // RISpec: "DepthOfField -", no lens.
+        token_.kind = TokenKind::String;
+        token_.string.assign(1, c);
+        ++next_;
     } else if (!scan_number()) {
         ++next_;
         while (next_ < end_ && !is_in_word(*next_) && !ends_number(*next_) && !is_high(*next_)) ++next_;
