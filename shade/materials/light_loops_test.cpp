@@ -147,6 +147,9 @@ TEST(Messages, GoBetweenLightsAndSurfaces) {
         "float flag = 7, none = 5; illuminance(P) { Ci += lightsource(\"flag\", flag) * 100 + flag; } Ci += "
         "lightsource(\"nothing\", none) * 1000 + none;",
         200 + 2 + 20 + 5);
+    probe.expect(
+        "float flag = 7; illuminance(P, N, PI, \"light:flag\", flag, \"lightcache\", \"reuse\") Ci += flag;",
+        2 + 20);
     LitProbe asking;
     asking.folder().write(
         "asking",

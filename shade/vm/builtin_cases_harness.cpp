@@ -73,8 +73,8 @@ std::vector<BuiltinCase> number_cases() {
                 {of("pow(" + a + ", 3)"), TRAPEZE_GIVES(x * x * x + 10 * y * y * y + 100 * 0.125), 1e-5});
         cases.push_back({of("mix(" + a + ", " + b + ", 0.25)"),
                          by_component([](double p, double q) { return p + (q - p) * 0.25; }), 1e-5});
-        if (type != "normal")
-            cases.push_back({of("mix(" + a + ", " + b + ", " + type + " (0.25, 0.5, 0.75))"),
+        for (const std::string& third : {type, std::string("color")})
+            cases.push_back({of("mix(" + a + ", " + b + ", " + third + " (0.25, 0.5, 0.75))"),
                              TRAPEZE_GIVES(x + (y - x) * 0.25 + 10 * (y + (0.4 - y) * 0.5) +
                                            100 * (0.5 + (x - 0.5) * 0.75)),
                              1e-5});

@@ -145,15 +145,45 @@ void Analyser::loop(Statement& s) {
     --body().loops;
 }
 
+/// lightsource("name", value): what "light:name" asks for, once in each turn.
+StatementPtr Analyser::message_of_light(const Expression& option, ExpressionPtr value) {
+    auto call = std::make_unique<Expression>();
+    call->kind = Expression::Kind::Call, call->text = "lightsource", call->at = option.at;
+    auto name = std::make_unique<Expression>();
+    name->kind = Expression::Kind::Text, name->at = option.at;
+    name->text = option.text.substr(option.text.find(':') + 1);
+    call->children.push_back(std::move(name));
+    call->children.push_back(std::move(value));
+    auto statement = std::make_unique<Statement>();
+    statement->kind = Statement::Kind::Evaluate, statement->at = option.at;
+    statement->expressions.push_back(std::move(call));
+    return statement;
+}
+
 /// "name", value, ... behind the arguments of a loop over lights or of a light's block. They are known by a
 /// string literal from which on names and values pair up to the end; categories are strings, too, and so a
 /// lone one stays.
-void Analyser::ignore_options(Statement& s, const std::string& word) {
+void Analyser::take_options(Statement& s, const std::string& word) {
     const size_t given = s.expressions.size();
     for (size_t i = s.kind == Statement::Kind::Solar ? 0 : 1; i < given; ++i) {
         if (s.expressions[i]->kind != Expression::Kind::Text || (given - i) % 2 != 0) continue;
-        reporter_.warning(s.expressions[i]->at, "optional arguments of " + word + " are ignored");
+        std::vector<StatementPtr> messages;
+        for (size_t name = i; name < given; name += 2) {
+            const Expression& option = *s.expressions[name];
+            const bool from_light =
+                s.kind == Statement::Kind::Illuminance && option.text.starts_with("light:");
+            if (from_light)
+                messages.push_back(message_of_light(option, std::move(s.expressions[name + 1])));
+            else if (option.text != "lightcache")  // which changes no value
+                reporter_.warning(option.at, "\"" + option.text + "\" of " + word + " is ignored");
+        }
         s.expressions.resize(i);
+        if (messages.empty()) return;
+        auto block = std::make_unique<Statement>();
+        block->kind = Statement::Kind::Block, block->at = s.at;
+        block->children = std::move(messages);
+        block->children.push_back(std::move(s.children[0]));
+        s.children[0] = std::move(block);
         return;
     }
 }
@@ -172,7 +202,7 @@ void Analyser::light_loop(Statement& s) {
     if (!in_place)
         error(s.at, word + " belongs into " + (illuminance ? "surface and volume" : "light") + " shaders");
 
-    ignore_options(s, word);
+    take_options(s, word);
     // What each argument is converted to; there are as many as the form that was meant has arguments.
     std::vector<Base> wanted;
     const size_t given = s.expressions.size();

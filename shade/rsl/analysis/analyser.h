@@ -83,7 +83,8 @@ class Analyser {
     void declaration(Statement& s);
     void declare_again(StatementPtr& s);
     void light_loop(Statement& s);
-    void ignore_options(Statement& s, const std::string& word);
+    void take_options(Statement& s, const std::string& word);
+    static StatementPtr message_of_light(const Expression& option, ExpressionPtr value);
     void gather(Statement& s);
     /// Names that rays do not know are warned of here, where they are constants: a run would find out only
     /// when a ray is sent.
@@ -142,6 +143,7 @@ class Analyser {
     bool becomes_as_it_is(const Signature::Parameter& parameter, const Expression& argument) const;
     /// From here on: messages about calls that fit nothing, and what follows from one that fits.
     bool lacks_knots(const Expression& call);
+    void write_as_known(Expression& call);
     void explain(std::vector<Signature> all, const Expression& call);
     void unknown_function(const Expression& call);
     void enter_function(Expression& call, const Function& original);

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <map>
@@ -372,15 +373,29 @@ TEST(Analysis, SplinesHaveFourKnots) {
 }
 
 TEST(Analysis, OptionsOfLightBlocksAreIgnored) {
-    EXPECT_EQ(in_surface("illuminance(\"a\", P, N, 1, \"lightcache\", \"reuse\") ;"),
-              "warning 1:93: optional arguments of illuminance are ignored\n");
-    EXPECT_EQ(in_surface("illuminance(P, \"send:light:x\", Kd) ;"),
-              "warning 1:82: optional arguments of illuminance are ignored\n");
+    EXPECT_EQ(in_surface("illuminance(\"a\", P, N, 1, \"lightcache\", \"reuse\") ;"), "")
+        << "which changes nothing";
+    EXPECT_EQ(in_surface("float b; illuminance(P, \"send:light:x\", Kd, \"light:b\", b) ;"),
+              "warning 1:91: \"send:light:x\" of illuminance is ignored\n");
+    EXPECT_THAT(in_surface("illuminance(P, \"light:b\", 1) ;"), ::testing::HasSubstr("must be a variable"));
     EXPECT_EQ(said("light t() { illuminate(P, N, 1, \"inshadows\", 1) Cl = 1; }"),
-              "warning 1:33: optional arguments of illuminate are ignored\n");
-    EXPECT_EQ(said("light t() { solar(\"x\", 1) Cl = 1; }"),
-              "warning 1:19: optional arguments of solar are ignored\n");
+              "warning 1:33: \"inshadows\" of illuminate is ignored\n");
+    EXPECT_EQ(said("light t() { solar(\"x\", 1) Cl = 1; }"), "warning 1:19: \"x\" of solar is ignored\n");
     EXPECT_EQ(in_surface("illuminance(\"a\", P) ;"), "");
+}
+
+/// As shaders for 3Delight, BMRT and PRMan have it.
+TEST(Analysis, FormsOfOtherRenderers) {
+    EXPECT_EQ(in_surface("print(s); print(P); print(\"x\"); print(Cs); print(N * 2);"), "");
+    EXPECT_EQ(said("void print(float x) {} surface t() { print(1); }"), "");
+    EXPECT_THAT(in_surface("print(1, 2);"), ::testing::HasSubstr("there is no function \"print\""));
+    EXPECT_EQ(in_surface("Ci = specularstd(N, -I, .1); P = mix(P, P + 1, Cs); N = mix(N, N, N);"), "");
+    EXPECT_EQ(
+        in_surface("float k = shadow(\"m\", P, \"source\", P, P + 1, P + 2, P + 3, \"samples\", 4);"),
+        "warning 1:92: a \"source\" of several points is not supported: shadows are those of a point\n");
+    EXPECT_EQ(in_surface("float k = shadow(\"m\", P, P, P, P, \"samples\", 4) + shadow(\"source\", P);"), "");
+    EXPECT_EQ(said("plugin \"ptex\"; surface t() { Ci = 1; }\x1a"),
+              "warning 1:1: plugins are not supported: functions of \"ptex\" are not there\n");
 }
 
 TEST(Analysis, ManyIndicesTakeNoTime) {

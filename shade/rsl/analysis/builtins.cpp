@@ -64,6 +64,10 @@ constexpr Builtin kBuiltins[] = {
     {"mix", 'c', "ccc", Op::Mix},
     {"mix", 'p', "ppp", Op::Mix},
     {"mix", 'v', "vvv", Op::Mix},
+    {"mix", 'n', "nnn", Op::Mix},
+    {"mix", 'p', "ppc", Op::Mix},
+    {"mix", 'v', "vvc", Op::Mix},
+    {"mix", 'n', "nnc", Op::Mix},
     {"step", 'f', "ff", Op::Step},
     {"smoothstep", 'f', "fff", Op::SmoothStep},
     {"filterstep", 'f', "ff*", Op::FilterStep},
@@ -291,6 +295,7 @@ constexpr Builtin kBuiltins[] = {
     {"areashadow", 'f', ".", Op::Unavailable},
     {"areashadow", 'c', ".", Op::Unavailable},
     {"fulltrace", 'c', ".", Op::Unavailable},
+    {"fulltrace", 'f', ".", Op::Unavailable},
     {"rayhittest", 'f', ".", Op::Unavailable},
 };
 

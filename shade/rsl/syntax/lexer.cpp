@@ -3,6 +3,9 @@
 namespace trapeze::rsl {
 namespace {
 
+/// Editors of DOS ended files with it.
+constexpr char kEndOfDosFile = 0x1a;
+
 /// Of ASCII, whatever the locale says.
 bool is_digit(char c) {
     return c >= '0' && c <= '9';
@@ -62,7 +65,7 @@ bool Lexer::skip_comment() {
 void Lexer::skip_blanks(Token& token) {
     while (position_ < text_.size()) {
         const char c = peek();
-        if (c == ' ' || c == '\t' || c == '\f' || c == '\v')
+        if (c == ' ' || c == '\t' || c == '\f' || c == '\v' || c == kEndOfDosFile)
             advance();
         else if (!skip_comment())
             return;

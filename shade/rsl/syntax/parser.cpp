@@ -36,7 +36,7 @@ std::unique_ptr<TranslationUnit> Parser::unit() {
     try {
         while (!at_end() && !reporter_.full()) {
             try {
-                if (accept(";")) continue;
+                if (accept(";") || skip_plugin()) continue;
                 refuse_rsl2();
                 definition();
             } catch (const Lost&) {
@@ -145,6 +145,15 @@ void Parser::skip_definition() {
             return;
         }
     }
+}
+
+/// plugin "file"; offers functions of a library. Headers name libraries that few of their shaders call.
+bool Parser::skip_plugin() {
+    if (!at("plugin") || ahead(1).kind != Token::Kind::Text || !ahead(2).is(";")) return false;
+    reporter_.warning(now().at, "plugins are not supported: functions of \"" +
+                                    std::string(ahead(1).text.substr(0, 80)) + "\" are not there");
+    for (int i = 0; i < 3; ++i) take();
+    return true;
 }
 
 /// What RenderMan's second shading language adds is said to be missing once. Words that RSL 2 reserves are

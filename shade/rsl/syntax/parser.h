@@ -61,6 +61,7 @@ class Parser {
     /// Goes on where the next shader or function is likely to begin, after an error.
     void skip_definition();
     /// Called wherever a word of RSL 2 could begin something; does nothing before any other word.
+    bool skip_plugin();
     void refuse_rsl2();
 
     // Definitions: parser.cpp.
