@@ -14,6 +14,8 @@ namespace {
 constexpr double kLeastSolidAngle = 1e-4;
 /// A disk is sampled by area beyond so many radii.
 constexpr double kNearDisk = 3;
+/// Of positions in floats, a few times over: they are where transformations have put them.
+constexpr double kRounding = 0x1p-21;
 
 /// A rectangle as a point sees it: the solid angle it takes, and points evenly over that [Urena13 sec. 3].
 class SphericalRectangle {
@@ -78,7 +80,9 @@ class FlatLight final : public LightSampler {
     LightSample sample(const V3f& P, const V3f&, const V2f& square) const override {
         const V3d from = wide(P), away = middle_ - from;
         const double height = -away.dot(normal_);
-        if (height == 0 || (height < 0 && !two_sided_)) return {};
+        // What lies in the light's plane does not see it, whichever way it rounds.
+        const double rounding = kRounding * (from.length() + middle_.length());
+        if (std::abs(height) <= rounding || (height < 0 && !two_sided_)) return {};
         const bool is_far =
             is_disk_ && away.length2() > kNearDisk * kNearDisk * 0.25 * std::max(x_.length2(), y_.length2());
         if (is_square_ && !is_far) {

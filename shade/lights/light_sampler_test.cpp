@@ -114,6 +114,28 @@ double of_disk(double R, double height, double away) {
     return (1 - (h2 + a2 - R * R) / std::sqrt(sum * sum - 4 * R * R * a2)) / 2;
 }
 
+/// Not even near the points from which it shines, where what rounds of the height would count for much.
+TEST(LightSamples, WhatLiesInALightsPlaneIsDark) {
+    M44f place;
+    place.setAxisAngle(V3f(1, 2, 3).normalized(), 0.7f);
+    place[3][0] = 30, place[3][1] = -7, place[3][2] = 11;
+    for (const auto kind : {LightShape::Kind::Rect, LightShape::Kind::Disk}) {
+        const auto light = make_flat_sampler(shape(kind), place);
+        ASSERT_TRUE(light);
+        int rounded = 0;
+        for (uint32_t i = 0; i < 1000; ++i) {
+            const V3f P = V3f(unit_float(hash(i, 1)) * 2 - 1, unit_float(hash(i, 2)) * 2 - 1, 0) * place;
+            rounded += (P - V3f(30, -7, 11)).dot(V3f(place[2][0], place[2][1], place[2][2])) != 0;
+            EXPECT_EQ(light->sample(P, V3f(0, 0, 1), V2f(.3f, .6f)).solid_angle, 0) << i;
+        }
+        EXPECT_GT(rounded, 200);
+        const V3f above = V3f(.3f, .2f, -1e-4f) * place, below = V3f(.3f, .2f, 1e-4f) * place;
+        EXPECT_NE(light->sample(above, V3f(0, 0, 1), V2f(.3f, .6f)).solid_angle == 0,
+                  light->sample(below, V3f(0, 0, 1), V2f(.3f, .6f)).solid_angle == 0)
+            << "one side";
+    }
+}
+
 TEST(LightSamples, OfDisksGiveTheirFormFactor) {
     const auto light = make_flat_sampler(shape(LightShape::Kind::Disk), stretched(2, 2));
     EXPECT_NEAR(light->area(), static_cast<float>(kPiOfLights), 1e-5f);
