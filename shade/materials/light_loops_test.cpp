@@ -140,6 +140,15 @@ TEST(Illuminance, LAndClMayBeChangedForATurn) {
     probe.expect("illuminance(P) { L = normalize(L) * 2; Cl *= 3; Ci += Cl * length(L); }", 66);
 }
 
+TEST(Illuminance, TellsTheCategoryOfItsTurn) {
+    LitProbe probe;
+    probe.light(1, "key,rim"), probe.light(10, "fill"), probe.light(100, "");
+    probe.expect(
+        "illuminance(P) { if (islightcategory(\"rim\") == 1) Ci += Cl; if (islightcategory(\"-fill\") == 1) "
+        "Ci += 2 * Cl; } Ci += 1000 * islightcategory(\"key\");",
+        1 + 2 + 200);
+}
+
 TEST(Messages, GoBetweenLightsAndSurfaces) {
     LitProbe probe;
     probe.light(1, ""), probe.light(10, "");

@@ -196,6 +196,8 @@ std::vector<BuiltinCase> asking_cases() {
         {"float a = areashadow(P, 4); color b = areashadow(P, 4), c = fulltrace(P, N); r = a + K(b + c) + X;",
          TRAPEZE_GIVES(x)},
         {"float a = fulltrace(P, N); r = a + X;", TRAPEZE_GIVES(x)},
+        {"float n = islightcategory(\"a\"); illuminance(P) n += 2 * islightcategory(\"a\"); r = n + X;",
+         TRAPEZE_GIVES(2 + x)},
         {"r = raydepth() + isindirectray() + isshadowray() + (rayhittest(P, N) > 1e29 ? X : -1);",
          TRAPEZE_GIVES(x)},
         {"string a = raylabel(); r = a == \"\" ? X : -1;", TRAPEZE_GIVES(x)},

@@ -20,6 +20,14 @@ void ask(Run& run, const Step& step, std::span<const Operand> operands) {
     fill_operand(run, operands[0], std::array{found ? 1.0f : 0.0f});
 }
 
+/// Of the light whose turn it is in illuminance; 0 outside.
+void is_light_category(Run& run, const Step& step, std::span<const Operand> operands) {
+    Lights* const lights = run.context().lights;
+    const bool is_so = lights && run.light_of_turn() &&
+                       lights->in_category(run.current_light(), run.registers().text_input(step, 0));
+    fill_operand(run, operands[0], std::array{is_so ? 1.0f : 0.0f});
+}
+
 /// shadername() of the shader that runs, or of the one of a kind that is on the same grid.
 void shader_name(Run& run, const Step& step, std::span<const Operand>) {
     Registers& registers = run.registers();
@@ -29,10 +37,17 @@ void shader_name(Run& run, const Step& step, std::span<const Operand>) {
 }
 
 constexpr ContextRow kMessageRows[] = {
-    {Op::LightMessage, ask},       {Op::SurfaceMessage, ask},  {Op::DisplacementMessage, ask},
-    {Op::AtmosphereMessage, ask},  {Op::IncidentMessage, ask}, {Op::OppositeMessage, ask},
-    {Op::AttributeMessage, ask},   {Op::OptionMessage, ask},   {Op::RendererInfo, ask},
+    {Op::LightMessage, ask},
+    {Op::SurfaceMessage, ask},
+    {Op::DisplacementMessage, ask},
+    {Op::AtmosphereMessage, ask},
+    {Op::IncidentMessage, ask},
+    {Op::OppositeMessage, ask},
+    {Op::AttributeMessage, ask},
+    {Op::OptionMessage, ask},
+    {Op::RendererInfo, ask},
     {Op::ShaderName, shader_name},
+    {Op::IsLightCategory, is_light_category},
 };
 
 }  // namespace

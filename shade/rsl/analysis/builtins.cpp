@@ -273,6 +273,7 @@ constexpr Builtin kBuiltins[] = {
     {"atmosphere", 'f', "s?", Op::AtmosphereMessage},
     {"displacement", 'f', "s?", Op::DisplacementMessage},
     {"lightsource", 'f', "s?", Op::LightMessage},
+    {"islightcategory", 'f', "s", Op::IsLightCategory},  // 3Delight's
     {"surface", 'f', "s?", Op::SurfaceMessage},
     {"incident", 'f', "s?", Op::IncidentMessage},
     {"opposite", 'f', "s?", Op::OppositeMessage},
