@@ -40,6 +40,9 @@ class LevelRule {
     /// A pixel's side at a point, camera space, as surfaces are cut (ScreenMetric): those beside an
     /// orthographic picture more and more coarsely.
     float pixel(const V3f& P) const;
+    /// On the axis of the view: at a distance of 1, or in an orthographic picture, whose pixels are smallest
+    /// there.
+    V3f middle() const { return perspective_ ? V3f(0, 0, 1) : V3f(center_.x, center_.y, 0); }
 
   private:
     float begin_of(int level, const RaySegment& ray) const;

@@ -263,7 +263,7 @@ class Sharing {
 
     /// A pixel's side where it is smallest within a ball of camera space.
     double pixel_at_least(const V3d& center, double radius) const {
-        const double unit = rule_.pixel(middle());
+        const double unit = rule_.pixel(rule_.middle());
         return camera_.perspective ? unit * (center.length() - radius) : unit;
     }
 
@@ -275,18 +275,10 @@ class Sharing {
         return std::max(vertices, 4 * 3.14 * radius_in_sides * radius_in_sides);
     }
 
-    /// Where a pixel's side is that of level_side(0) at a distance of 1, or anywhere: on the axis of the
-    /// view.
-    V3f middle() const {
-        if (camera_.perspective) return {0, 0, 1};
-        return {camera_.plane_offset_x + camera_.plane_scale_x * static_cast<float>(camera_.width) / 2,
-                camera_.plane_offset_y + camera_.plane_scale_y * static_cast<float>(camera_.height) / 2, 0};
-    }
-
     /// A space in which an object is diced with sides of at most so much of its own: far away on the view's
     /// axis, scaled as asked, or in the middle of an orthographic picture. Nothing where that is too near.
     std::optional<M44d> model_space(const Ball& ball, double side, double perspective_scale) const {
-        const double unit = rule_.pixel(middle());
+        const double unit = rule_.pixel(rule_.middle());
         M44d space;
         space.setTranslation(-ball.center);
         if (camera_.perspective) {
@@ -297,8 +289,8 @@ class Sharing {
         }
         const double scale = unit / side;
         const auto edge = static_cast<float>(scale * ball.radius);
-        if (rule_.pixel(middle() + V3f(edge, 0, 0)) > rule_.pixel(middle())) return {};
-        return space * M44d().setScale(scale) * M44d().setTranslation(V3d(middle()));
+        if (rule_.pixel(rule_.middle() + V3f(edge, 0, 0)) > rule_.pixel(rule_.middle())) return {};
+        return space * M44d().setScale(scale) * M44d().setTranslation(V3d(rule_.middle()));
     }
 
     void share(const ObjectKey& key, const std::vector<uint32_t>& firsts) {
@@ -308,20 +300,19 @@ class Sharing {
         // Scaled about as the instance is, so that coordinates are those of a camera's space.
         const double scale =
             std::ldexp(1.0, std::ilogb(stretch_of(primitive(stands_for).camera_from_object.front()).x));
-        const std::optional<M44d> model_from_first =
-            model_space(ball_of(stands_for, stands_for + count), std::ldexp(1.0, key.size), scale);
-        if (!model_from_first) return;  // nor was it: size_of() has looked
+        const M44d model_from_first =  // there is one: size_of() has looked
+            model_space(ball_of(stands_for, stands_for + count), std::ldexp(1.0, key.size), scale).value();
         const auto object = static_cast<uint32_t>(result_.objects.size());
         result_.objects.push_back({static_cast<uint32_t>(result_.models.size()), stands_for, count});
         for (uint32_t i = 0; i < count; ++i) {
             Primitive model = primitive(stands_for + i);
             model.camera_from_object = {
-                M44f(M44d(model.camera_from_object.front()) * first_from_camera * *model_from_first)};
+                M44f(M44d(model.camera_from_object.front()) * first_from_camera * model_from_first)};
             model.emitter.reset();
             result_.models.push_back(std::move(model));
             result_.object_of_model.push_back(object);
         }
-        const M44d first_from_model = model_from_first->inverse();
+        const M44d first_from_model = model_from_first.inverse();
         for (const uint32_t first : firsts) {
             ObjectPlace place{object, first, {}};
             for (const M44f& pose : poses(first))
