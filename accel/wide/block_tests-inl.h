@@ -13,6 +13,7 @@
 #include <bit>
 
 #include "accel/wide/bundle_state-inl.h"
+#include "accel/wide/whole_block-inl.h"
 #include "core/simd/simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -21,7 +22,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Fewer rays than this are tested one by one, lanes being micropolygons.
-inline constexpr size_t kFewInBlock = 3;
+inline constexpr size_t kFewInBlock = 5;
 
 /// Keeps the hits of a vector of block rays, those from `first` on, that are within the depths that count.
 /// `hit`: lanes that hit micropolygon (u, v) of the block at `depth`.
@@ -47,34 +48,21 @@ inline void keep_hits(BundleState& t, const SegmentBlock& block, size_t first, M
 
 /// Tests one ray, at a time local to the block's segment, against all micropolygons of a block: lanes are
 /// micropolygons. Whether the ray looks less far now.
-template <bool kMotion, bool kLens>
+template <bool kMotion>
 bool test_one_ray(BundleState& t, const SegmentBlock& block, uint32_t ray, float local) {
-    const F32 d;
-    const I32 di;
-    RayLanes r;
-    if constexpr (kLens) r.ox = hn::Set(d, t.rays.ox[ray]), r.oy = hn::Set(d, t.rays.oy[ray]);
-    r.ux = hn::Set(d, t.rays.ux[ray]), r.uy = hn::Set(d, t.rays.uy[ray]);
-    if constexpr (kMotion) r.local = hn::Set(d, local);
+    BlockRay at;
+    at.axis = {t.rays.ox[ray], t.rays.oy[ray], 0, t.rays.ux[ray], t.rays.uy[ray], 0};
+    at.local = local;
     bool nearer = false;
     for (int m = 0; m < 4 * block.view.rows; m += static_cast<int>(kLanes)) {
-        const VI number = lane_numbers(di, m), u = hn::And(number, hn::Set(di, 3)),
-                 v = hn::ShiftRight<2>(number);
-        VF depth = hn::Zero(d);
-        const QuadLanes<VF> q = quads_at<kMotion, kLens>(block.view, r, u, hn::And(v, hn::Set(di, 3)));
-        MF hit = inside(d, q);
-        if (hn::AllFalse(d, hit)) continue;
-        hit = hn::And(hit, depth_inside(d, q, block.facing, depth));
-        // Places past the grid's end repeat vertices: they are no micropolygons.
-        hit = hn::And(hit, hn::RebindMask(d, hn::And(hn::Lt(u, hn::Set(di, block.columns)),
-                                                     hn::Lt(v, hn::Set(di, block.view.rows)))));
-        hit = hn::And(
-            hit, hn::And(hn::Ge(depth, hn::Set(d, t.range.min)), hn::Le(depth, hn::Set(d, t.range.max))));
-        uint32_t lanes = mask_bits(hit);
+        VF depth;
+        uint32_t lanes = hit_micropolygons<kMotion>(block.view, block.columns, block.facing, m, at, depth);
         if (lanes == 0) continue;
         HWY_ALIGN float depths[kLanes];
-        hn::Store(depth, d, depths);
+        hn::Store(depth, F32(), depths);
         for (; lanes != 0; lanes &= lanes - 1) {
             const int lane = std::countr_zero(lanes), micropolygon = m + lane;
+            if (!(depths[lane] >= t.range.min && depths[lane] <= t.range.max)) continue;
             const auto uv = static_cast<uint32_t>((micropolygon & 3) | micropolygon >> 2 << 4);
             nearer |= t.keep_hit(ray, depths[lane], block.id + uv, block.opaque);
         }
@@ -101,8 +89,7 @@ void test_block_rays(BundleState& t, const SegmentBlock& block, size_t count) {
     if (t.rays.tests)
         for (size_t i = 0; i < count; ++i) count_tests_of(t, block, t.scratch.active.ray[from.active[i]]);
     const auto test_one = [&](size_t i) HWY_ATTR {
-        test_one_ray<kMotion, kLens>(t, block, t.scratch.active.ray[from.active[i]],
-                                     kMotion ? from.local[i] : 0.0f);
+        test_one_ray<kMotion>(t, block, t.scratch.active.ray[from.active[i]], kMotion ? from.local[i] : 0.0f);
     };
     for (size_t i = 0; i < count; i += kLanes) {
         const size_t left = count - i;

@@ -55,6 +55,11 @@ struct MetPackets {
         lanes[RayIntervals::kRoom + 16];  ///< whole vectors are written
 };
 
+/// Between what slopes, along x and y, rays from the origin see the micropolygons of a block (v * 4 + u).
+struct SlopeBounds {
+    alignas(64) float low[2][16], high[2][16];
+};
+
 /// A grid that some groups of packets may meet, no nearer than a depth.
 struct Candidate {
     float depth;
@@ -94,13 +99,15 @@ struct BundleScratch {
     MetPackets met_packets;  ///< of the grid that is visited
     SegmentFrame frame;      ///< of it, in its segment, once a packet has come near
     BoxPlanes boxes;
+    SlopeBounds slopes[16];     ///< of the grid's blocks, for sharp packets
+    uint32_t slopes_known = 0;  ///< which of them are made, a bit a block
     ActiveRays active;
     static constexpr size_t kMetStride = ActiveRays::kRoom;  ///< a byte a ray at worst
     alignas(64) uint8_t met[16 * kMetStride + 64];  ///< per box, a bit for each active ray that meets it
     BlockRays block;
-    /// Rays wait until there are kMostWaiting; a segment of a grid then still adds fewer than three rays for
-    /// each of its 16 blocks.
-    static constexpr size_t kMostWaiting = 32, kWaitingRoom = kMostWaiting + 32;
+    /// Rays wait until there are kMostWaiting; a segment of a grid then still adds up to four rays for each
+    /// of its 16 blocks.
+    static constexpr size_t kMostWaiting = 32, kWaitingRoom = kMostWaiting + 64;
     size_t waiting_count = 0;
     WaitingRay waiting[kWaitingRoom];
     uint32_t nearer[kWaitingRoom];  ///< packets of those that have come to see something nearer

@@ -66,7 +66,7 @@ class BundleTrace {
             visit_grid(candidate);
         }
         // Those that the last grids have left: fewer than fill the list.
-        test_waiting<kMotion, kLens>(t_);
+        test_waiting<kMotion>(t_);
         t_.stats.rays += t_.rays.count;
     }
 
@@ -177,7 +177,7 @@ class BundleTrace {
         const MovingBox box = t_.tree.segment_box(grid, segment);
         collect_active<kGridMoves, kLens>(t_, box, grid, segment, candidate);
         test_active<kGridMoves, kLens>(t_, candidate, box, grid, segment);
-        if (t_.scratch.waiting_count >= BundleScratch::kMostWaiting) test_waiting<kMotion, kLens>(t_);
+        if (t_.scratch.waiting_count >= BundleScratch::kMostWaiting) test_waiting<kMotion>(t_);
     }
 
     /// Tests all rays against a grid that no box can hold, by the scalar predicate.

@@ -269,7 +269,7 @@ void let_wait(BundleState& t, const WaitingRay& common, const SegmentBlock& bloc
 }
 
 /// Tests all rays that wait, but for those that have come to see something nearer meanwhile; then none waits.
-template <bool kMotion, bool kLens>
+template <bool kMotion>
 void test_waiting(BundleState& t) {
     size_t nearer = 0;
     for (size_t i = 0; i < t.scratch.waiting_count; ++i) {
@@ -281,9 +281,9 @@ void test_waiting(BundleState& t) {
         if (t.rays.tests) count_tests_of(t, block, waiting.ray);
         bool found;
         if (kMotion && grid.moves())
-            found = test_one_ray<kMotion, kLens>(t, block, waiting.ray, waiting.local);
+            found = test_one_ray<kMotion>(t, block, waiting.ray, waiting.local);
         else
-            found = test_one_ray<false, kLens>(t, block, waiting.ray, 0);
+            found = test_one_ray<false>(t, block, waiting.ray, 0);
         t.scratch.nearer[nearer] = static_cast<uint32_t>(waiting.ray / kLanes);
         nearer += found;
     }

@@ -1,7 +1,6 @@
 /// Packets of rays through one point that lie close together, against still micropolygons: the rays stay
 /// where they are (nothing is compacted), boxes and micropolygons are chosen for the packet as a whole, and
-/// only what is left is put to the predicate, lanes being rays. Compiled once a target; only AVX-512 traces
-/// by it (kHasSharpPackets), tests on all others, so that every machine tests it.
+/// only what is left is put to the predicate, lanes being rays. Compiled once a target.
 #if defined(TRAPEZE_ACCEL_SHARP_PACKETS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRAPEZE_ACCEL_SHARP_PACKETS_INL_H_
 #undef TRAPEZE_ACCEL_SHARP_PACKETS_INL_H_
@@ -23,83 +22,120 @@ namespace trapeze {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Whether pinholes are traced by sharp packets: where a packet is as many rays as a block has micropolygons.
-/// Other targets trace them as they trace all else.
-inline constexpr bool kHasSharpPackets = HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86;
+/// Whether pinholes are traced by sharp packets: where a packet is more than one ray.
+inline constexpr bool kHasSharpPackets = kLanes > 1;
 
 /// The intervals of a packet's slopes. All of its rays start at the origin of camera space.
 struct PacketSlopes {
     float ux_low, ux_high, uy_low, uy_high;
 };
 
-/// The boxes of a grid (at most 16, one a lane) that some ray of a packet may meet between the depths z_low
-/// and z_high and no farther than `farthest`, as bits: the middle ray against boxes grown by how far others
-/// are from it anywhere in the grid's range of depths.
-HWY_INLINE uint32_t boxes_met(const WideGrid& grid, const FrameAxes& axes, const float* planes,
-                              const PacketSlopes& slopes, float z_low, float z_high, float farthest) {
+/// What slopes are grown by, of themselves and besides: a division rounds, as the predicate's product of
+/// slope and depth does, by 2^-24 each, and denormal products by 2^-150, over depths of kLeastDepth and more.
+inline constexpr float kSlopeGrowth = 0x1p-21f, kSlopeGrowthAtLeast = 1e-25f, kLeastSlopeDepth = 1e-18f;
+
+/// Bounds the slopes x / z and y / z of the corners of a block's micropolygons. A ray whose slope is on one
+/// side of all four passes beside the micropolygon. What comes nearer than kLeastSlopeDepth, or behind the
+/// eye, has no bounds.
+inline void bound_slopes(const BlockView& block, SlopeBounds& bounds) {
+    constexpr size_t kParts = BlockParts::kParts;
     const F32 d;
-    const float reach = std::max(std::abs(z_low), std::abs(z_high));
-    const float ux = 0.5f * (slopes.ux_low + slopes.ux_high), uy = 0.5f * (slopes.uy_low + slopes.uy_high);
-    // A little more than half, for the middle is rounded.
-    const float dx = 0.50001f * (slopes.ux_high - slopes.ux_low) + 0x1p-22f * std::abs(ux),
-                dy = 0.50001f * (slopes.uy_high - slopes.uy_low) + 0x1p-22f * std::abs(uy);
-    const auto boxes = static_cast<size_t>(grid.box_count());
-    uint32_t met = 0;
-    for (size_t b = 0; b < BoxPlanes::kMost; b += kLanes) {
-        VF near = hn::Set(d, z_low), far = hn::Set(d, std::min(z_high, farthest + grid.slack()));
-        for (size_t k = 0; k < 3; ++k) {
-            const float* axis = axes.axis[k];
-            // At depth z a ray of the packet lies within (dx, dy) * z of the middle ray; this is that along
-            // the frame's axis k.
-            const VF grow = hn::Set(d, reach * (std::abs(axis[0]) * dx + std::abs(axis[1]) * dy));
-            const float along = axis[0] * ux + axis[1] * uy + axis[2];
-            const VF inverse =
-                hn::Set(d, 1.0f / (std::abs(along) < kLeastDirection ? kLeastDirection : along));
-            const float* low = planes + k * BoxPlanes::kMost + b;
-            const VF p = hn::Mul(hn::Sub(hn::Load(d, low), grow), inverse);
-            const VF q = hn::Mul(hn::Add(hn::Load(d, low + 3 * BoxPlanes::kMost), grow), inverse);
-            near = hn::Max(near, hn::Min(p, q)), far = hn::Min(far, hn::Max(p, q));
+    const VF infinity = hn::Set(d, HUGE_VALF);
+    for (size_t first = 0; first < 16; first += kLanes) {
+        const BlockParts lookup(block, static_cast<int>(first));
+        VF z[kParts], inverse[kParts];
+        MF bounded[kParts];
+        lookup.load(2, z);
+#pragma GCC unroll 4
+        for (size_t i = 0; i < kParts; ++i) {
+            inverse[i] = hn::Div(hn::Set(d, 1.0f), z[i]);
+            bounded[i] = hn::Ge(z[i], hn::Set(d, kLeastSlopeDepth));
         }
-        met |= mask_bits(hn::And(hn::Le(near, far), hn::FirstN(d, boxes - std::min(boxes, b)))) << b;
+        for (int k = 0; k < 2; ++k) {
+            VF low[kParts], high[kParts];
+            lookup.load(k, low);
+#pragma GCC unroll 4
+            for (size_t i = 0; i < kParts; ++i) {
+                const VF slope = hn::Mul(low[i], inverse[i]);
+                const VF growth =
+                    hn::MulAdd(hn::Abs(slope), hn::Set(d, kSlopeGrowth), hn::Set(d, kSlopeGrowthAtLeast));
+                low[i] = hn::IfThenElse(bounded[i], hn::Sub(slope, growth), hn::Neg(infinity));
+                high[i] = hn::IfThenElse(bounded[i], hn::Add(slope, growth), infinity);
+            }
+            VF lowest = lookup.corner(k00, low), highest = lookup.corner(k00, high);
+#pragma GCC unroll 3
+            for (int corner = 1; corner < 4; ++corner) {
+                lowest = hn::Min(lowest, lookup.corner(corner, low));
+                highest = hn::Max(highest, lookup.corner(corner, high));
+            }
+            hn::Store(lowest, d, bounds.low[k] + first);
+            hn::Store(highest, d, bounds.high[k] + first);
+        }
     }
-    return met;
 }
 
-/// The micropolygons of a block that some ray of a packet may hit, as bits v * 4 + u: those whose corners,
-/// moved along all slopes of the packet, lie about the ray in a and in b. Exact in floats, with nothing
-/// grown: the predicate's roundings are monotone in the slope.
-HWY_INLINE uint32_t micropolygons_met(const BlockView& block, const PacketSlopes& slopes) {
-    constexpr size_t kParts = BlockParts::kParts;
+/// The micropolygons of a block that some ray of a packet may hit, as bits v * 4 + u.
+HWY_INLINE uint32_t micropolygons_met(const SlopeBounds& bounds, const PacketSlopes& slopes) {
     const F32 d;
     uint32_t all = 0;
     for (size_t first = 0; first < 16; first += kLanes) {
-        const BlockParts lookup(block, static_cast<int>(first));
-        VF vertices[3][kParts];
-        for (int k = 0; k < 3; ++k) lookup.load(k, vertices[k]);
-        VF met_low[2], met_high[2];  // of a, then b, over a micropolygon's corners
-        for (int k = 0; k < 2; ++k) {
-            const VF from = hn::Set(d, k == 0 ? slopes.ux_low : slopes.uy_low),
-                     to = hn::Set(d, k == 0 ? slopes.ux_high : slopes.uy_high);
-            VF low[kParts], high[kParts];
-#pragma GCC unroll 4
-            for (size_t i = 0; i < kParts; ++i) {
-                const VF p = hn::Mul(from, vertices[2][i]), q = hn::Mul(to, vertices[2][i]);
-                low[i] = hn::Sub(vertices[k][i], hn::Max(p, q));
-                high[i] = hn::Sub(vertices[k][i], hn::Min(p, q));
-            }
-            met_low[k] = lookup.corner(k00, low), met_high[k] = lookup.corner(k00, high);
-#pragma GCC unroll 3
-            for (int corner = 1; corner < 4; ++corner) {
-                met_low[k] = hn::Min(met_low[k], lookup.corner(corner, low));
-                met_high[k] = hn::Max(met_high[k], lookup.corner(corner, high));
-            }
-        }
-        const VF zero = hn::Zero(d);
-        const MF met = hn::And(hn::And(hn::Le(met_low[0], zero), hn::Ge(met_high[0], zero)),
-                               hn::And(hn::Le(met_low[1], zero), hn::Ge(met_high[1], zero)));
-        all |= mask_bits(met) << first;
+        const MF x = hn::And(hn::Le(hn::Load(d, bounds.low[0] + first), hn::Set(d, slopes.ux_high)),
+                             hn::Ge(hn::Load(d, bounds.high[0] + first), hn::Set(d, slopes.ux_low)));
+        const MF y = hn::And(hn::Le(hn::Load(d, bounds.low[1] + first), hn::Set(d, slopes.uy_high)),
+                             hn::Ge(hn::Load(d, bounds.high[1] + first), hn::Set(d, slopes.uy_low)));
+        all |= mask_bits(hn::And(x, y)) << first;
     }
     return all;
+}
+
+/// A vector of packets along the axes of a grid's frame, one packet a lane of each row: one over what the
+/// middle ray goes along axis k a unit of depth, and how far others are from it at most anywhere in the
+/// grid's range of depths.
+struct PacketsInFrame {
+    HWY_ALIGN float inverse[3][kLanes], spread[3][kLanes];
+
+    /// `reach`: the largest |depth| of the grid.
+    HWY_INLINE PacketsInFrame(const IntervalLanes& q, const FrameAxes& axes, float reach) {
+        const F32 d;
+        // A little more than half, for the middle is rounded.
+        const VF half = hn::Set(d, 0.5f), more = hn::Set(d, 0.50001f), rounding = hn::Set(d, 0x1p-22f);
+        const VF ux = hn::Mul(half, hn::Add(q.dx.low, q.dx.high)),
+                 uy = hn::Mul(half, hn::Add(q.dy.low, q.dy.high));
+        const VF dx = hn::MulAdd(rounding, hn::Abs(ux), hn::Mul(more, hn::Sub(q.dx.high, q.dx.low))),
+                 dy = hn::MulAdd(rounding, hn::Abs(uy), hn::Mul(more, hn::Sub(q.dy.high, q.dy.low)));
+        const VF least = hn::Set(d, kLeastDirection);
+        for (size_t k = 0; k < 3; ++k) {
+            const VF x = hn::Set(d, axes.axis[k][0]), y = hn::Set(d, axes.axis[k][1]);
+            const VF along = hn::MulAdd(x, ux, hn::MulAdd(y, uy, hn::Set(d, axes.axis[k][2])));
+            hn::Store(hn::Div(hn::Set(d, 1.0f), hn::IfThenElse(hn::Lt(hn::Abs(along), least), least, along)),
+                      d, inverse[k]);
+            // At depth z a ray of the packet lies within (dx, dy) * z of the middle ray.
+            hn::Store(hn::Mul(hn::Set(d, reach), hn::MulAdd(hn::Abs(x), dx, hn::Mul(hn::Abs(y), dy))), d,
+                      spread[k]);
+        }
+    }
+};
+
+/// The boxes of a grid (at most 16, one a lane) that some ray of a packet may meet between the depths z_low
+/// and z_high, as bits: the middle ray against boxes grown by how far others are from it.
+HWY_INLINE uint32_t boxes_met(const WideGrid& grid, const float* planes, const PacketsInFrame& packets,
+                              size_t lane, float z_low, float z_high) {
+    const F32 d;
+    const auto boxes = static_cast<size_t>(grid.box_count());
+    uint32_t met = 0;
+    for (size_t b = 0; b < boxes; b += kLanes) {
+        VF near = hn::Set(d, z_low), far = hn::Set(d, z_high);
+        for (size_t k = 0; k < 3; ++k) {
+            const VF spread = hn::Set(d, packets.spread[k][lane]),
+                     inverse = hn::Set(d, packets.inverse[k][lane]);
+            const float* low = planes + k * BoxPlanes::kMost + b;
+            const VF p = hn::Mul(hn::Sub(hn::Load(d, low), spread), inverse);
+            const VF q = hn::Mul(hn::Add(hn::Load(d, low + 3 * BoxPlanes::kMost), spread), inverse);
+            near = hn::Max(near, hn::Min(p, q)), far = hn::Min(far, hn::Max(p, q));
+        }
+        met |= mask_bits(hn::And(hn::Le(near, far), hn::FirstN(d, boxes - b))) << b;
+    }
+    return met;
 }
 
 /// The corners of one micropolygon of a block against rays through the origin.
@@ -128,17 +164,16 @@ inline bool add_layers(BundleState& t, size_t first, MF hit, VF depth, uint32_t 
     return nearer;
 }
 
-/// Tests a packet against the micropolygons of a block that it may hit; whether one of its rays looks less
-/// far now.
-inline bool test_packet(BundleState& t, const SegmentBlock& block, size_t packet,
-                        const PacketSlopes& slopes) {
+/// Tests a packet against those of a block's micropolygons that `met` says; whether one of its rays looks
+/// less far now.
+inline bool test_packet(BundleState& t, const SegmentBlock& block, size_t packet, uint32_t met) {
     const F32 d;
     const hn::RebindToUnsigned<F32> du;
     const size_t i = packet * kLanes, rays = std::min(kLanes, t.rays.count - i);
     const VF ux = hn::Load(d, t.rays.ux + i), uy = hn::Load(d, t.rays.uy + i);
     const MF valid = hn::FirstN(d, rays);
     bool nearer = false;
-    for (uint32_t met = micropolygons_met(block.view, slopes); met != 0; met &= met - 1) {
+    for (; met != 0; met &= met - 1) {
         const int m = std::countr_zero(met), u = m & 3, v = m >> 2;
         t.stats.predicate_tests += rays;
         if (t.rays.tests) count_packet(t.rays.tests, i, 1);
@@ -170,19 +205,14 @@ inline bool test_packet(BundleState& t, const SegmentBlock& block, size_t packet
     return nearer;
 }
 
-/// Tests a packet against the boxes of grid number `index`, which are decoded, and the blocks in those it
-/// meets. `box`: the grid's in camera space. Whether the packet's farthest depth may have become nearer.
-inline bool visit_packet(BundleState& t, uint32_t index, const WideGrid& grid, const FrameAxes& axes,
-                         const MovingBox& box, size_t packet) {
+/// Tests a packet against the blocks in the boxes that it meets of grid number `index`. Whether the packet's
+/// farthest depth may have become nearer.
+inline bool visit_packet(BundleState& t, uint32_t index, const WideGrid& grid, size_t packet,
+                         uint32_t boxes) {
     const auto& row = t.scratch.intervals.row;
     const PacketSlopes slopes{row[RayIntervals::kDxMin][packet], row[RayIntervals::kDxMax][packet],
                               row[RayIntervals::kDyMin][packet], row[RayIntervals::kDyMax][packet]};
-    uint32_t boxes =
-        boxes_met(grid, axes, t.scratch.boxes.values, slopes, std::max(box.low[2], t.nearest_depth),
-                  box.high[2], t.scratch.farthest[packet]);
     const auto rays = std::min(kLanes, t.rays.count - packet * kLanes);
-    t.stats.nodes_visited += rays;
-    if (t.rays.nodes) count_packet(t.rays.nodes, packet * kLanes, 1);
     bool nearer = false;
     const int blocks_u = grid.blocks_u(), per_box = grid.blocks_per_box();
     for (; boxes != 0; boxes &= boxes - 1) {
@@ -190,7 +220,14 @@ inline bool visit_packet(BundleState& t, uint32_t index, const WideGrid& grid, c
                   last = std::min(first + per_box, grid.block_count());
         for (int b = first; b < last; ++b) {
             t.stats.leaves_visited += rays;
-            nearer |= test_packet(t, block_of(grid, 0, b % blocks_u, b / blocks_u, index), packet, slopes);
+            const auto block = [&] { return block_of(grid, 0, b % blocks_u, b / blocks_u, index); };
+            SlopeBounds& bounds = t.scratch.slopes[b];
+            if (!(t.scratch.slopes_known >> b & 1)) {
+                bound_slopes(block().view, bounds);
+                t.scratch.slopes_known |= 1u << b;
+            }
+            if (const uint32_t met = micropolygons_met(bounds, slopes); met != 0)
+                nearer |= test_packet(t, block(), packet, met);
         }
     }
     if (nearer) t.refresh_packet(packet);
@@ -202,6 +239,8 @@ inline bool visit_packet(BundleState& t, uint32_t index, const WideGrid& grid, c
 inline void visit_sharp(BundleState& t, const Candidate& candidate, const WideGrid& grid) {
     const F32 d;
     const MovingBox box = t.tree.grid_box(grid);
+    const float z_low = std::max(box.low[2], t.nearest_depth), z_high = box.high[2],
+                reach = std::max(std::abs(z_low), std::abs(z_high));
     SegmentFrame& frame = t.scratch.frame;
     VF low[3], high[3];
     for (int k = 0; k < 3; ++k) low[k] = hn::Set(d, box.low[k]), high[k] = hn::Set(d, box.high[k]);
@@ -212,14 +251,23 @@ inline void visit_sharp(BundleState& t, const Candidate& candidate, const WideGr
         const MF looks = hn::Ge(hn::Load(d, t.scratch.farthest + p), low[2]);
         uint32_t met = mask_bits(hn::And(
             looks, meets<false>(d, q, low, high, hn::Set(d, t.nearest_depth), hn::Set(d, t.inverse_focal))));
-        if (met != 0 && !decoded) {
+        if (met == 0) return;
+        if (!decoded) {
             t.tree.read_frame(grid, 0, frame);
             decode_boxes<false>(t.tree, grid, 0, frame, t.scratch.boxes);
+            t.scratch.slopes_known = 0;
             decoded = true;
         }
-        for (; met != 0; met &= met - 1)
-            nearer |= visit_packet(t, candidate.grid, grid, frame.axes, box,
-                                   p + static_cast<size_t>(std::countr_zero(met)));
+        const PacketsInFrame packets(q, frame.axes, reach);
+        for (; met != 0; met &= met - 1) {
+            const auto lane = static_cast<size_t>(std::countr_zero(met));
+            const size_t packet = p + lane, rays = std::min(kLanes, t.rays.count - packet * kLanes);
+            t.stats.nodes_visited += rays;
+            if (t.rays.nodes) count_packet(t.rays.nodes, packet * kLanes, 1);
+            const uint32_t boxes = boxes_met(grid, t.scratch.boxes.values, packets, lane, z_low,
+                                             std::min(z_high, t.scratch.farthest[packet] + grid.slack()));
+            if (boxes != 0) nearer |= visit_packet(t, candidate.grid, grid, packet, boxes);
+        }
     });
     if (nearer) t.refresh_farthest();
 }

@@ -1,5 +1,5 @@
-/// Sharp packets, by which only AVX-512 traces, on every instruction set of the machine: pinhole rays that
-/// lie close together see what testing everything sees, to the bit.
+/// Sharp packets, on every instruction set of the machine: pinhole rays that lie close together see what
+/// testing everything sees, to the bit.
 #include "accel/wide/bundle.h"
 
 #include <gtest/gtest.h>
@@ -154,6 +154,63 @@ TEST(SharpPackets, SeeWhatTestingEverythingSeesOnEveryTarget) {
         EXPECT_GT(hits, 1000u);
         EXPECT_EQ(behind > 100, layers);
     }
+}
+
+/// Sheets that pass beside and behind the eye, some of their vertices in its plane or nearly so: slopes are
+/// of any size there, or none.
+void add_things_about_the_eye(GridMaker& maker, Noise& noise) {
+    for (int n = 0; n < 40; ++n) {
+        const float size = n % 4 == 0 ? 0.3f : n % 4 == 1 ? 1e-3f : n % 4 == 2 ? 1e-19f : 1e-41f;
+        const V3f corner = noise.point(4 * size), along_u = noise.point(size), along_v = noise.point(size);
+        const int flat = n % 3;  // 0: in the plane of the eye; 1: with a row of vertices there
+        maker.add(9, 7, 1, [=](int i, int j, float) {
+            V3f p = corner + along_u * static_cast<float>(i) + along_v * static_cast<float>(j);
+            if (flat == 0 || (flat == 1 && j == 3)) p.z = 0;
+            return p;
+        });
+    }
+}
+
+TEST(SharpPackets, SeeWhatIsBesideTheEye) {
+    Noise noise;
+    GridMaker maker;
+    add_things_about_the_eye(maker, noise);
+    const WideTree tree(maker.grids(), {});
+    size_t hits = 0;
+    for (int round = 0; round < 12; ++round) {
+        auto rays = pinhole_rays({noise(-0.9f, 0.8f), noise(-0.9f, 0.8f)}, 0.02f, 8, noise);
+        for (size_t i = 0; i < rays.size(); i += 7) rays[i].ux = 0;
+        const DepthRange range = round % 2 ? DepthRange{-100, 100} : DepthRange{0, 100};
+        const Seen truth = seen_naively(maker.grids(), rays, range);
+        for (const Hit& hit : truth.nearest) hits += hit.id != MicropolygonId::kNone;
+        for_each_target([&] { EXPECT_EQ(seen_sharply(tree, rays, range).nearest, truth.nearest) << round; });
+    }
+    EXPECT_GT(hits, 1000u);
+}
+
+TEST(SharpPackets, SeeWhatIsJustAtVertices) {
+    Noise noise;
+    GridMaker maker;
+    add_things(maker, false, noise);
+    const WideTree tree(maker.grids(), {});
+    size_t hits = 0;
+    for (int round = 0; round < 12; ++round) {
+        std::vector<AxisRay> rays;
+        while (rays.size() < 1024) {
+            const Grid& grid = maker.grids().grids[noise.engine() % maker.grids().grids.size()];
+            const V3f p = grid.vertex(static_cast<int>(noise.engine() % (grid.shape.nu + 1u)),
+                                      static_cast<int>(noise.engine() % (grid.shape.nv + 1u)), 0);
+            if (p.z < 0.1f) continue;
+            // A packet of one ray alone, whose slopes have no width.
+            rays.insert(rays.end(), 16, AxisRay{0, 0, 0, p.x / p.z, p.y / p.z, 0});
+        }
+        const Seen truth = seen_naively(maker.grids(), rays, {0.1f, 100});
+        for (const Hit& hit : truth.nearest) hits += hit.id != MicropolygonId::kNone;
+        for_each_target([&] {
+            EXPECT_EQ(seen_sharply(tree, rays, {0.1f, 100}).nearest, truth.nearest) << round;
+        });
+    }
+    EXPECT_GT(hits, 1000u);
 }
 
 }  // namespace

@@ -48,6 +48,8 @@ const SamplingSceneOptions kScenes[] = {
     {true, 1.5e6, 0, 20, 8},     // 12
     {true, 1.5e6, 60, 20, 8},    // 13
     {false, 20e6, 60, 20, 8},    // 14
+    {false, 1.5e6, 0, 0, 2},     // 15
+    {false, 20e6, 0, 0, 4},      // 16
 };
 
 double now() {
