@@ -6,13 +6,6 @@
 namespace trapeze {
 namespace {
 
-/// The largest absolute coordinate of a box: what rounding errors are relative to.
-float largest_coordinate(const Box3f& box) {
-    float largest = 0;
-    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(box.min[k]), std::abs(box.max[k])});
-    return largest;
-}
-
 /// Any unit vector orthogonal to a unit vector.
 V3d orthogonal_to(const V3d& unit) {
     const V3d helper = std::abs(unit.x) < 0.6 ? V3d(1, 0, 0) : V3d(0, 1, 0);
@@ -34,6 +27,12 @@ Box3f turned(const Box3f& box, const Frame& from, const Frame& to) {
 }
 
 }  // namespace
+
+float largest_coordinate(const Box3f& box) {
+    float largest = 0;
+    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(box.min[k]), std::abs(box.max[k])});
+    return largest;
+}
 
 Frame frame_of(const V3d& first, const V3d& second) {
     // Scaled by a power of two near the longer length, so that squares neither overflow nor vanish.

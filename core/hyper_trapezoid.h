@@ -16,6 +16,9 @@ namespace trapeze {
 /// Relative growth that covers the rounding of a rotation and of a lerp in time: 16 half-ulps.
 inline constexpr float kBoundRounding = 0x1p-20f;
 
+/// The largest |coordinate| of a box, which must not be empty: what rounding errors are relative to.
+float largest_coordinate(const Box3f& box);
+
 /// An orientation: three axes, orthonormal up to rounding. Coordinates in the frame are dot products.
 struct Frame {
     V3f axis[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

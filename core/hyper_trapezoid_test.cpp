@@ -45,6 +45,13 @@ Frame random_frame(Noise& noise) {
     return frame_of(V3d(noise.point(1)), V3d(noise.point(1)));
 }
 
+TEST(LargestCoordinate, IsThatOfAnyCornerOnAnyAxis) {
+    const Box3f box({-1, -2, -3}, {1.5f, 2, 0});
+    EXPECT_EQ(largest_coordinate(box), 3);
+    EXPECT_EQ(largest_coordinate({box.min, {1, 7, 2}}), 7);
+    EXPECT_EQ(largest_coordinate({{4, 5, 6}, {8, 5, 6}}), 8);
+}
+
 TEST(HyperTrapezoid, BoundsLinearMotionWhenItBoundsTheKeys) {
     Noise noise{std::mt19937(5)};
     for (const int keys : {1, 2, 5}) {

@@ -36,12 +36,6 @@ AxisRange range_of_box(const Box3f& box, const V3f& axis) {
     return range;
 }
 
-float largest_coordinate(const Box3f& box) {
-    float largest = 0;
-    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(box.min[k]), std::abs(box.max[k])});
-    return largest;
-}
-
 }  // namespace
 
 SeparatingAxes::SeparatingAxes(const Grid& grid, const MicropolygonId& id, float pose_time)

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "core/hyper_trapezoid.h"
+
 namespace trapeze {
 namespace {
 
@@ -16,12 +18,6 @@ KeyBounds bounds_of(const Imath::Box3f& box) {
     KeyBounds bounds;
     for (int k = 0; k < 3; ++k) bounds.low[k] = box.min[k], bounds.high[k] = box.max[k];
     return bounds;
-}
-
-float largest_coordinate(const Imath::Box3f& box) {
-    float largest = 0;
-    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(box.min[k]), std::abs(box.max[k])});
-    return largest;
 }
 
 /// How much longer a space makes things, at most.
