@@ -31,7 +31,8 @@ struct PacketSlopes {
 };
 
 /// What slopes are grown by, of themselves and besides: a division rounds, as the predicate's product of
-/// slope and depth does, by 2^-24 each, and denormal products by 2^-150, over depths of kLeastDepth and more.
+/// slope and depth does, by 2^-24 each, and denormal products by 2^-150, over depths of kLeastSlopeDepth and
+/// more.
 inline constexpr float kSlopeGrowth = 0x1p-21f, kSlopeGrowthAtLeast = 1e-25f, kLeastSlopeDepth = 1e-18f;
 
 /// Bounds the slopes x / z and y / z of the corners of a block's micropolygons. A ray whose slope is on one
