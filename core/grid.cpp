@@ -1,7 +1,9 @@
 #include "core/grid.h"
 
 #include <algorithm>
-#include <new>
+#include <cstdlib>
+
+#include "core/memory/large_pages.h"
 
 namespace trapeze {
 namespace {
@@ -17,15 +19,16 @@ size_t aligned(size_t size) {
 }  // namespace
 
 void GridArena::Free::operator()(std::byte* p) const {
-    ::operator delete (p, std::align_val_t{kAlignment});
+    std::free(p);
 }
 
 std::byte* GridArena::take(size_t size) {
     size = aligned(size);
     if (size > left_) {
-        const size_t chunk = std::max(size, chunk_bytes_);
-        chunks_.emplace_back(
-            static_cast<std::byte*>(::operator new (chunk + kReadable, std::align_val_t{kAlignment})));
+        // The first ones are small, since most scenes are; later ones are large pages.
+        const bool many = bytes_ >= 2 * kLargePage && chunk_bytes_ >= kDefaultChunk;
+        const size_t chunk = std::max(size, many ? 2 * kLargePage - kReadable : chunk_bytes_);
+        chunks_.emplace_back(static_cast<std::byte*>(large_memory(chunk + kReadable)));
         next_ = chunks_.back().get();
         left_ = chunk;
         bytes_ += chunk;

@@ -161,6 +161,8 @@ class GridArena {
     size_t bytes() const { return bytes_; }
 
   private:
+    static constexpr size_t kDefaultChunk = size_t{1} << 20;  ///< bytes
+
     /// 64-byte aligned memory, from the present chunk or a new one.
     std::byte* take(size_t size);
 
@@ -170,7 +172,7 @@ class GridArena {
     std::vector<std::unique_ptr<std::byte, Free>> chunks_;
     std::byte* next_ = nullptr;
     size_t left_ = 0, bytes_ = 0;
-    size_t chunk_bytes_ = size_t{1} << 20;
+    size_t chunk_bytes_ = kDefaultChunk;
 };
 
 /// The shaded grids of a region, sorted by ordinal.

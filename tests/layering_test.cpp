@@ -40,6 +40,7 @@ const std::map<std::string, Names> kWings = {
     {"composite/film", {"composite", "composite/filters", "composite/layers", "composite/mattes"}},
     {"composite/filters", {"composite"}},
     {"composite/merge", {"composite", "composite/displays"}},
+    {"core", {"core/memory"}},
     {"core/files", {"core"}},
     {"core/scene", {"core"}},
     {"pipeline/checkpoint", {"pipeline/frame"}},

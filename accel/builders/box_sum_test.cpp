@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/hyper_trapezoid.h"
 #include "core/noise_harness.h"
 
 namespace trapeze {
@@ -36,6 +37,24 @@ TEST(BoxSum, IsWhatExtendBySays) {
         }
         sum.add(half);
         EXPECT_TRUE(same(sum.box(), box)) << turn;
+    }
+}
+
+TEST(BoxSum, HasTheLargestCoordinate) {
+    Noise noise;
+    for (int turn = 0; turn < 200; ++turn) {
+        BoxSum sum;
+        LongestSide longest;
+        float side = 0;
+        EXPECT_EQ(longest.get(), 0);
+        for (int n = 0; n < 1 + turn % 4; ++n) {
+            Box3f box(noise.point(3, -9, turn % 5 ? 5 : 12));
+            box.extendBy(noise.point(3, -9, 5));
+            sum.add(box), longest.add(BoxLanes(box));
+            for (int k = 0; k < 3; ++k) side = std::max(side, box.max[k] - box.min[k]);
+        }
+        EXPECT_EQ(sum.largest_coordinate(), largest_coordinate(sum.box()));
+        EXPECT_EQ(longest.get(), side);
     }
 }
 

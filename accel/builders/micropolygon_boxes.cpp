@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "accel/builders/grid_pose.h"
 
 namespace trapeze {
 
@@ -14,47 +15,29 @@ namespace {
 /// each of the up to four micropolygons around it.
 template <class Place>
 void boxes_of_placed(const Grid& grid, float time01, uint32_t first_id, SahItem* items, const Place& place) {
-    V3f vertices[kMaxGridVertices];
     const MotionSegment s = segment_at(time01, grid.moves() ? grid.key_count : 1);
     const auto coordinate = [&](int k, int at) {
         const float start = grid.plane(s.index, k)[at];
         return grid.moves() ? position_at(start, grid.plane(s.index, 3 + k)[at], s.local) : start;
     };
-    V3f* out = vertices;
-    for (int j = 0; j <= grid.shape.nv; ++j)
-        for (int i = 0; i <= grid.shape.nu; ++i, ++out) {
-            const int at = grid.shape.tiled_index(i, j);
-            *out = place(V3f(coordinate(0, at), coordinate(1, at), coordinate(2, at)));
-        }
-    for_each_box(grid.shape, vertices, [&](int i, const Box3f& box) {
+    GridPose pose;
+    pose.set(grid.shape, [&](int i, int j) {
+        const int at = grid.shape.tiled_index(i, j);
+        return place(V3f(coordinate(0, at), coordinate(1, at), coordinate(2, at)));
+    });
+    pose.for_each_box([&](int i, const Box3f& box) {
         items[i] = {box, 1, first_id + static_cast<uint32_t>(i)};
     });
 }
 
 }  // namespace
 
-float read_vertices(const Grid& grid, int key, V3f* vertices) {
-    const KeyVertices at_key(grid, key);
-    float largest = 0;
-    for (int j = 0; j <= grid.shape.nv; ++j)
-        for (int i = 0; i <= grid.shape.nu; ++i, ++vertices) {
-            const V3f p = *vertices = at_key[grid.shape.tiled_index(i, j)];
-            for (int k = 0; k < 3; ++k) {
-                const float size = std::abs(p[k]);
-                // Negated, so that a NaN is as little to be bounded as what is too large.
-                if (!(size <= kBoundableCoordinate)) largest = std::numeric_limits<float>::infinity();
-                largest = std::max(largest, size);
-            }
-        }
-    return largest;
-}
-
 void boxes_of_grid(const Grid& grid, const Frame& frame, float time01, uint32_t first_id, SahItem* items) {
     boxes_of_placed(grid, time01, first_id, items, [&](const V3f& p) { return frame.from_space(p); });
 }
 
 void micropolygon_items(const Grids& grids, const std::vector<GridSummary>& summaries,
-                        std::vector<MicropolygonId>& ids, std::vector<SahItem>& items) {
+                        UnsetVector<MicropolygonId>& ids, UnsetVector<SahItem>& items) {
     std::vector<uint32_t> first(grids.grids.size());
     uint32_t count = 0;
     for (size_t g = 0; g < first.size(); ++g) {

@@ -7,26 +7,9 @@
 #include "accel/builders/grid_summary.h"
 #include "accel/builders/sah_topology.h"
 #include "core/grid.h"
+#include "core/memory/large_pages.h"
 
 namespace trapeze {
-
-/// Calls use(i, box) for each micropolygon of a grid in the order of rows (u fastest), with the box of its
-/// corners; `vertices` are those of the grid, row by row.
-template <class Use>
-void for_each_box(const GridShape& shape, const V3f* vertices, const Use& use) {
-    const int row = shape.vertices_u();
-    for (int v = 0; v < shape.nv; ++v)
-        for (int u = 0; u < shape.nu; ++u) {
-            const V3f* const q = vertices + v * row + u;
-            Box3f box;
-            for (const V3f& p : {q[0], q[1], q[row], q[row + 1]}) box.extendBy(p);
-            use(v * shape.nu + u, box);
-        }
-}
-
-/// Reads the vertices of a grid at one of its keys, row by row; there is room for kMaxGridVertices. Returns
-/// their largest coordinate; infinity where one is too large to be bounded, or no number.
-float read_vertices(const Grid& grid, int key, V3f* vertices);
 
 /// The micropolygon that comes as number i of a grid's in the order of rows.
 inline MicropolygonId micropolygon_of_grid(size_t grid, const GridShape& shape, int i) {
@@ -43,6 +26,6 @@ void boxes_of_grid(const Grid& grid, const Frame& frame, float time01, uint32_t 
 /// without a bound is a point at the origin. There are at most 2^31 micropolygons: links of the topology
 /// count them in 31 bits.
 void micropolygon_items(const Grids& grids, const std::vector<GridSummary>& summaries,
-                        std::vector<MicropolygonId>& ids, std::vector<SahItem>& items);
+                        UnsetVector<MicropolygonId>& ids, UnsetVector<SahItem>& items);
 
 }  // namespace trapeze

@@ -7,6 +7,7 @@
 
 #include "accel/builders/sah_bins.h"
 #include "accel/builders/sah_sweep.h"
+#include "core/memory/large_pages.h"
 
 namespace trapeze {
 namespace {
@@ -16,7 +17,7 @@ constexpr size_t kParallelFrom = 1024;  ///< items below which a subtree is one 
 /// Builds the tree over items, which it sorts in place: a subtree is a range of them.
 class Builder {
   public:
-    Builder(std::vector<SahItem>& items, const SahOptions& options) : items_(items), options_(options) {
+    Builder(std::span<SahItem> items, const SahOptions& options) : items_(items), options_(options) {
         if (items.size() > 1) split_at_.resize(items.size() - 1);
     }
 
@@ -31,9 +32,7 @@ class Builder {
     }
 
   private:
-    std::span<SahItem> part(size_t first, size_t last) const {
-        return std::span(items_).subspan(first, last - first);
-    }
+    std::span<SahItem> part(size_t first, size_t last) const { return items_.subspan(first, last - first); }
 
     /// The subtree of items [first, last). While building, a leaf is named by its first item and an inner
     /// node by the first item of its upper side, less one: names that do not depend on who builds first.
@@ -132,16 +131,16 @@ class Builder {
         return TopLink::inner(index);
     }
 
-    std::vector<SahItem>& items_;
+    std::span<SahItem> items_;
     const SahOptions& options_;
     /// The children of every inner node, at the first item of its upper side less one: one place for each gap
     /// between two items, so that threads write to places of their own.
-    std::vector<std::array<TopLink, 2>> split_at_;
+    UnsetVector<std::array<TopLink, 2>> split_at_;
 };
 
 }  // namespace
 
-SahTopology build_sah_topology(std::vector<SahItem>& items, const SahOptions& options) {
+SahTopology build_sah_topology(std::span<SahItem> items, const SahOptions& options) {
     return Builder(items, options).build();
 }
 

@@ -82,6 +82,6 @@ inline double half_area(const Box3f& box) {
 }
 
 /// Brings the items into the order of the leaves. Deterministic, whatever the number of threads.
-SahTopology build_sah_topology(std::vector<SahItem>& items, const SahOptions& options);
+SahTopology build_sah_topology(std::span<SahItem> items, const SahOptions& options);
 
 }  // namespace trapeze

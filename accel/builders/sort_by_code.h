@@ -2,7 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+
+#include "core/memory/large_pages.h"
 
 namespace trapeze {
 
@@ -12,8 +13,9 @@ struct CodedItem {
     uint32_t item;
 };
 
-/// Sorts by codes, which are below 2^bits; what has one code stays in its order. In parallel, by radix; what
-/// comes out does not depend on threads. Takes as much memory again while it sorts.
-void sort_by_code(std::vector<CodedItem>& items, int bits);
+/// Sorts by codes, which are below 2^bits. What has one code comes in order of `item`, as it has to come
+/// here. In parallel, by radix; what comes out does not depend on threads. Takes as much memory again while
+/// it sorts.
+void sort_by_code(UnsetVector<CodedItem>& items, int bits);
 
 }  // namespace trapeze

@@ -9,8 +9,8 @@
 namespace trapeze {
 namespace {
 
-std::vector<CodedItem> coded(size_t count, uint64_t mask) {
-    std::vector<CodedItem> items;
+UnsetVector<CodedItem> coded(size_t count, uint64_t mask) {
+    UnsetVector<CodedItem> items;
     for (uint32_t i = 0; i < count; ++i)
         items.push_back({(uint64_t{hash(1, i)} << 32 | hash(2, i)) & mask, i});
     return items;
@@ -23,7 +23,7 @@ TEST_P(SortByCode, IsThatOfComparisonsAndKeepsTheOrderOfEqualCodes) {
     // All bits; codes that many items have; digits that all have in common; one code.
     for (const uint64_t mask :
          {(uint64_t{1} << kBits) - 1, uint64_t{0xf00000000f}, uint64_t{1} << 53, uint64_t{0}}) {
-        std::vector<CodedItem> items = coded(GetParam(), mask), expected = items;
+        UnsetVector<CodedItem> items = coded(GetParam(), mask), expected = items;
         std::ranges::stable_sort(expected, {}, &CodedItem::code);
         sort_by_code(items, kBits);
         ASSERT_EQ(items.size(), expected.size());

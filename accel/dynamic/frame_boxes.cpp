@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "accel/builders/grid_pose.h"
 #include "accel/builders/micropolygon_boxes.h"
 #include "core/hyper_trapezoid.h"
 
@@ -21,10 +22,10 @@ struct ShutterExtent {
 ShutterExtent boxes_of_shutter(const Grid& grid, KeyBox* boxes) {
     ShutterExtent extent;
     std::fill_n(boxes, grid.shape.micropolygon_count(), empty_box());
-    V3f vertices[kMaxGridVertices];
+    GridPose vertices;
     for (int key = 0; key < grid.key_count; ++key) {
-        extent.absolute_max = std::max(extent.absolute_max, read_vertices(grid, key, vertices));
-        for_each_box(grid.shape, vertices, [&](int i, const Box3f& pose) {
+        extent.absolute_max = std::max(extent.absolute_max, vertices.read(grid, key));
+        vertices.for_each_box([&](int i, const Box3f& pose) {
             const V3f size = pose.max - pose.min;
             extent.quad_extent = std::max({extent.quad_extent, size.x, size.y, size.z});
             const Box3f grown = grown_for_rounding(pose);

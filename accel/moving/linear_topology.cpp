@@ -2,7 +2,6 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <array>
@@ -52,7 +51,11 @@ class LinearBuilder {
         Subtree top{0, order_.size(), {}, {}};
         top.root = divide_into_subtrees(top, 0, order_.size());
         tbb::parallel_for(size_t{0}, subtrees_.size(), [&](size_t i) {
-            subtrees_[i].root = build(subtrees_[i], subtrees_[i].first, subtrees_[i].last);
+            Subtree& subtree = subtrees_[i];
+            // Most leaves are half full.
+            subtree.inner.reserve(2 * (subtree.last - subtree.first) / leaf_below_);
+            subtree.leaf_first.reserve(subtree.inner.capacity());
+            subtree.root = build(subtree, subtree.first, subtree.last);
         });
         join(top, result);
     }
@@ -136,26 +139,12 @@ class LinearBuilder {
     std::vector<Subtree> subtrees_;
 };
 
-Box3f box_of(std::span<const V3f> points) {
-    return tbb::parallel_reduce(
-        tbb::blocked_range<size_t>(0, points.size()), Box3f(),
-        [&](const auto& range, Box3f box) {
-            for (size_t i = range.begin(); i < range.end(); ++i) box.extendBy(points[i]);
-            return box;
-        },
-        [](Box3f a, const Box3f& b) {
-            a.extendBy(b);
-            return a;
-        });
-}
-
 }  // namespace
 
-LinearTopology build_linear_topology(std::span<const V3f> centroids, size_t leaf_below) {
+LinearTopology build_linear_topology(std::span<const V3f> centroids, const Box3f& box, size_t leaf_below) {
     LinearTopology result;
     if (!centroids.empty()) {
-        const Box3f box = box_of(centroids);
-        std::vector<CodedItem> order(centroids.size());
+        UnsetVector<CodedItem> order(centroids.size());
         tbb::parallel_for(tbb::blocked_range<size_t>(0, centroids.size()), [&](const auto& range) {
             for (size_t i = range.begin(); i < range.end(); ++i)
                 order[i] = {morton_code(centroids[i], box), static_cast<uint32_t>(i)};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "accel/builders/sah_topology.h"
+#include "core/memory/large_pages.h"
 
 namespace trapeze {
 
@@ -14,12 +15,12 @@ namespace trapeze {
 struct LinearTopology {
     TopTopology tree;                  ///< its leaves are numbered from left to right
     std::vector<uint32_t> leaf_first;  ///< leaf -> its first item; one more than leaves
-    std::vector<uint32_t> items;       ///< in the order of leaves; of one leaf in their own
+    UnsetVector<uint32_t> items;       ///< in the order of leaves; of one leaf in their own
 };
 
-/// `centroids`: of items at mid-shutter, all finite. Codes have 18 bits an axis of their box; what has one
+/// `centroids`: of items at mid-shutter, all finite, in `box`. Codes have 18 bits an axis of it; what has one
 /// code is halved in the order of items. Leaves have fewer items than `leaf_below`, at least 2.
 /// Deterministic, whatever the number of threads.
-LinearTopology build_linear_topology(std::span<const V3f> centroids, size_t leaf_below);
+LinearTopology build_linear_topology(std::span<const V3f> centroids, const Box3f& box, size_t leaf_below);
 
 }  // namespace trapeze

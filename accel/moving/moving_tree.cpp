@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "accel/builders/box_sum.h"
 #include "accel/builders/build_clock.h"
 #include "accel/builders/grid_summary.h"
 #include "accel/builders/micropolygon_boxes.h"
@@ -60,29 +61,6 @@ void boxes_of_part(const Grid& grid, const MicropolygonId& id, const Box3f& part
     }
 }
 
-/// The middles of boxes at mid-shutter; of what cannot be bounded the origin.
-UnsetArray<V3f> centroids_of(const SweptBoxes& boxes) {
-    UnsetArray<V3f> centroids(boxes.size());
-    tbb::parallel_for(tbb::blocked_range<size_t>(0, boxes.size()), [&](const auto& range) {
-        for (size_t i = range.begin(); i < range.end(); ++i) {
-            const Box3f box = boxes.at(i, 0.5f);
-            const V3f middle = box.min * 0.5f + box.max * 0.5f;
-            const bool finite = std::isfinite(middle.x) && std::isfinite(middle.y) && std::isfinite(middle.z);
-            centroids.set(i, finite ? middle : V3f(0));
-        }
-    });
-    return centroids;
-}
-
-/// Takes a micropolygon's largest coordinate and longest side into a node's.
-void take_extremes(std::span<const Box3f> keys, TopLevel::Node& node) {
-    for (const Box3f& box : keys)
-        for (int k = 0; k < 3; ++k) {
-            node.absolute_max = std::max({node.absolute_max, -box.min[k], box.max[k]});
-            node.quad_extent = std::max(node.quad_extent, box.max[k] - box.min[k]);
-        }
-}
-
 }  // namespace
 
 /// What leaves are made of: a list of references, each to a micropolygon or to a part of one.
@@ -107,7 +85,28 @@ struct MovingTree::LastFrame {
 
 /// What bounding a leaf works on; it is large, and made once for many leaves.
 struct MovingTree::LeafBoxes {
-    KeyBoxes of_leaf, at_keys, of_part;
+    std::array<BoxSum, kMaxKeyCount> of_leaf;
+    BoxSum whole;         ///< of all micropolygons at their keys
+    LongestSide longest;  ///< of micropolygons
+    KeyBoxes at_keys, of_part;
+
+    /// Takes in boxes at as many keys as there are, or at fewer ones: between these they are linear.
+    void add(std::span<const Box3f> from, size_t keys) {
+        if (from.size() == keys) {
+            for (size_t key = 0; key < keys; ++key) of_leaf[key].add(from[key]);
+            return;
+        }
+        // The last key is the end of the last segment.
+        const size_t segments = std::max(from.size() - 1, size_t{1}), step = (keys - 1) / segments;
+        for (size_t s = 0, key = 0; s < segments; ++s) {
+            const BoxLanes a(from[s]), b(from[std::min(s + 1, from.size() - 1)]);
+            const BoxLanes way(b.low - a.low, b.high - a.high);
+            for (size_t i = 0; i < step + (s + 1 == segments); ++i, ++key) {
+                const float local = static_cast<float>(i) / static_cast<float>(step);
+                of_leaf[key].add(BoxLanes(a.low + way.low * local, a.high + way.high * local));
+            }
+        }
+    }
 };
 
 MovingTree::MovingTree(const Grids& grids, const MovingTreeOptions& options)
@@ -118,13 +117,15 @@ MovingTree::MovingTree(const Grids& grids, const MovingTreeOptions& options)
 void MovingTree::build() {
     PhaseClock clock;
     BuildPhases phases;
-    const SweptBoxes boxes(*grids_);
+    const bool linear = options_.topology == MovingTreeOptions::Topology::Morton;
+    MiddlePoints middles;
+    const SweptBoxes boxes(*grids_, linear ? &middles : nullptr);
     top_.oriented = false;
-    if (options_.topology == MovingTreeOptions::Topology::Morton) {
-        const UnsetArray<V3f> centroids = centroids_of(boxes);
+    if (linear) {
         phases.prepare = clock.end_phase();
         LinearTopology topology =
-            build_linear_topology({centroids.data(), centroids.size()}, static_cast<size_t>(options_.leaf));
+            build_linear_topology(middles.at, middles.box, static_cast<size_t>(options_.leaf));
+        middles = {};
         phases.divide = clock.end_phase();
         leaf_first_ = std::move(topology.leaf_first);
         link_nodes(topology.tree, leaf_count(), top_.nodes);
@@ -140,8 +141,8 @@ void MovingTree::build() {
 }
 
 void MovingTree::build_spatial(const SweptBoxes& boxes, PhaseClock& clock, BuildPhases& phases) {
-    std::vector<MicropolygonId> ids;
-    std::vector<SahItem> items;
+    UnsetVector<MicropolygonId> ids;
+    UnsetVector<SahItem> items;
     micropolygon_items(*grids_, summaries_along_axes(*grids_), ids, items);
     SpatialOptions spatial;
     spatial.leaf_below = static_cast<size_t>(options_.leaf);
@@ -159,7 +160,7 @@ void MovingTree::build_spatial(const SweptBoxes& boxes, PhaseClock& clock, Build
     const auto by_id = [](const SahItem& a, const SahItem& b) {
         return PartId::index(a.id) < PartId::index(b.id);
     };
-    std::vector<uint32_t> references(topology.references.size());
+    UnsetVector<uint32_t> references(topology.references.size());
     tbb::parallel_for(size_t{0}, leaf_count(), [&](size_t i) {
         const uint32_t first = leaf_first_[i], last = leaf_first_[i + 1];
         std::sort(topology.references.begin() + first, topology.references.begin() + last, by_id);
@@ -244,53 +245,66 @@ double MovingTree::mean_area(size_t node) const {
         const KeyBox& box = top_.boxes[node * keys + key];
         // Between keys boxes are interpolated: those at both ends count for half a segment.
         const double part = keys > 2 && (key == 0 || key + 1 == keys) ? .5 : 1;
-        sum += part * half_area(Box3f(V3f(box.low[0], box.low[1], box.low[2]),
-                                      V3f(box.high[0], box.high[1], box.high[2])));
+        double side[3];
+        for (int k = 0; k < 3; ++k)
+            side[k] = static_cast<double>(box.high[k]) - static_cast<double>(box.low[k]);
+        sum += part * (side[0] * side[1] + side[1] * side[2] + side[2] * side[0]);
     }
     return sum;
 }
 
-/// The boxes of all references, each brought from the keys of its grid to those of the tree.
+/// The boxes of what a reference is to, at the keys of the tree.
+std::span<const Box3f> MovingTree::boxes_of(const Sources& sources, size_t r, size_t list,
+                                            std::span<const Box3f> whole, LeafBoxes& boxes) {
+    const uint32_t reference = sources.references[r];
+    const MicropolygonId& id = micropolygons_[r];
+    std::span<const Box3f> there = whole;
+    if (!std::isfinite(whole[0].min.x)) {  // its rounding makes any box infinite
+        boxes.of_part[0] = Box3f(V3f(0), V3f(0));
+        there = std::span(boxes.of_part).first(1);
+    } else if (PartId::is_part(reference)) {
+        const Grid& grid = grids_->grids[id.grid];
+        boxes_of_part(grid, id, sources.parts[r].box, pose_of(grid, id, .5f), options_.clipping, whole,
+                      boxes.of_part);
+        there = std::span(boxes.of_part).first(whole.size());
+    } else if (sources.last && sources.last->times[reference] > 1) {
+        if (sources.last->boxes_of(grids_->grids[id.grid], id, list, options_.clipping, whole, boxes.of_part))
+            there = std::span(boxes.of_part).first(whole.size());
+    }
+    const auto keys = static_cast<size_t>(top_.key_count);
+    if (there.size() <= keys) return there;
+    keyed_boxes(there, std::span(boxes.at_keys).first(keys));
+    return std::span(boxes.at_keys).first(keys);
+}
+
 void MovingTree::bound_leaf(const Sources& sources, size_t at, LeafBoxes& boxes) {
     // Micropolygons next to each other in a tree are anywhere in memory: those further on are asked for.
     constexpr size_t kAhead = 24;
+    const std::span<const uint32_t> references = sources.references;
     const auto keys = static_cast<size_t>(top_.key_count);
-    auto& [of_leaf, at_keys, of_part] = boxes;
-    std::fill_n(of_leaf.begin(), keys, Box3f());
+    std::fill_n(boxes.of_leaf.begin(), keys, BoxSum());
+    boxes.whole = {}, boxes.longest = {};
     TopLevel::Node& node = top_.nodes[at];
-    node.absolute_max = node.quad_extent = 0;
     const uint32_t list = node.link.index();
     for (size_t r = leaf_first_[list]; r < leaf_first_[list + 1]; ++r) {
-        if (r + kAhead < sources.references.size())
-            sources.boxes.fetch(PartId::index(sources.references[r + kAhead]));
-        const uint32_t reference = sources.references[r];
-        const std::span<const Box3f> whole = sources.boxes.keys(PartId::index(reference));
-        const MicropolygonId& id = micropolygons_[r] = sources.boxes.id(PartId::index(reference));
-        take_extremes(whole, node);
-        std::span<const Box3f> there = whole;
-        if (!std::isfinite(whole[0].min.x)) {  // its rounding makes any box infinite
-            of_part[0] = Box3f(V3f(0), V3f(0));
-            there = std::span(of_part).first(1);
-        } else if (PartId::is_part(reference)) {
-            const Grid& grid = grids_->grids[id.grid];
-            boxes_of_part(grid, id, sources.parts[r].box, pose_of(grid, id, .5f), options_.clipping, whole,
-                          of_part);
-            there = std::span(of_part).first(whole.size());
-        } else if (sources.last && sources.last->times[reference] > 1) {
-            if (sources.last->boxes_of(grids_->grids[id.grid], id, list, options_.clipping, whole, of_part))
-                there = std::span(of_part).first(whole.size());
+        const size_t last = references.size() - 1, index = PartId::index(references[r]);
+        sources.boxes.fetch_place(PartId::index(references[std::min(r + 2 * kAhead, last)]));
+        sources.boxes.fetch(PartId::index(references[std::min(r + kAhead, last)]));
+        const std::span<const Box3f> whole = sources.boxes.keys(index);
+        micropolygons_[r] = sources.boxes.id(index);
+        boxes.add(boxes_of(sources, r, list, whole, boxes), keys);
+        for (const Box3f& box : whole) {
+            const BoxLanes lanes(box);
+            boxes.whole.add(lanes), boxes.longest.add(lanes);
         }
-        if (there.size() != keys) {
-            keyed_boxes(there, std::span(at_keys).first(keys));
-            there = std::span(at_keys).first(keys);
-        }
-        for (size_t key = 0; key < keys; ++key) of_leaf[key].extendBy(there[key]);
     }
-    KeyBox* const to = top_.boxes.data() + at * keys;
+    node.absolute_max = boxes.whole.largest_coordinate(), node.quad_extent = boxes.longest.get();
     for (size_t key = 0; key < keys; ++key) {
-        // By more than each of them would be.
-        const Box3f grown = grown_for_rounding(of_leaf[key]);
-        for (int k = 0; k < 3; ++k) to[key].low[k] = grown.min[k], to[key].high[k] = grown.max[k];
+        // By more than each of them would be, and by as much again for those between keys.
+        const Box3f box = boxes.of_leaf[key].box();
+        const float pad = 2 * kBoundRounding * boxes.of_leaf[key].largest_coordinate();
+        KeyBox& to = top_.boxes[at * keys + key] = KeyBox();
+        for (int k = 0; k < 3; ++k) to.low[k] = box.min[k] - pad, to.high[k] = box.max[k] + pad;
     }
 }
 
@@ -323,7 +337,7 @@ double MovingTree::bound_below(const Sources& sources, size_t at, int depth, Lea
     for (size_t key = 0; key < keys; ++key) {
         const KeyBox &of_a = top_.boxes[low * keys + key], &of_b = top_.boxes[high * keys + key];
         KeyBox& to = top_.boxes[at * keys + key];
-        for (int k = 0; k < 3; ++k) {
+        for (int k = 0; k < 4; ++k) {
             to.low[k] = std::min(of_a.low[k], of_b.low[k]);
             to.high[k] = std::max(of_a.high[k], of_b.high[k]);
         }

@@ -57,7 +57,7 @@ TEST(MovingTree, InTheOrderOfMortonCodesFindsWhatTestingEverythingFinds) {
 TEST(LinearTopology, DividesByTheHighestBit) {
     std::vector<V3f> points;
     for (const float x : {.9f, .1f, .6f, .2f, .4f, .0f, 1.f}) points.push_back(V3f(x, 0, 0));
-    const LinearTopology topology = build_linear_topology(points, 2);
+    const LinearTopology topology = build_linear_topology(points, Box3f(V3f(0), V3f(1, 0, 0)), 2);
     std::vector<float> xs;
     for (const uint32_t item : topology.items) xs.push_back(points[item].x);
     EXPECT_EQ(xs, (std::vector<float>{0, .1f, .2f, .4f, .6f, .9f, 1}));
@@ -229,8 +229,8 @@ TEST(SpatialTopology, ReferencesHoldAllOfTheirMicropolygons) {
     Noise noise;
     GridMaker maker;
     add_strips(maker, 2000, 3, noise);
-    std::vector<MicropolygonId> ids;
-    std::vector<SahItem> items;
+    UnsetVector<MicropolygonId> ids;
+    UnsetVector<SahItem> items;
     micropolygon_items(maker.grids(), framed_summaries(maker.grids(), {}), ids, items);
     for (const bool tight : {true, false}) {
         const SpatialTopology topology = build_spatial_topology(

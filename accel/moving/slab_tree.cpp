@@ -48,8 +48,8 @@ SlabTree::SlabTree(const Grids& grids, const SlabTreeOptions& options) : grids_(
     const bool is_moving = options.planes == SlabTreeOptions::Planes::Moving;
     sets_ = is_moving ? PlaneSets::of_cube() : PlaneSets::of_space_time(mean_speed(grids, unbounded_));
     key_count_ = is_moving ? static_cast<size_t>(grids.max_key_count()) : 1;
-    std::vector<MicropolygonId> ids;
-    std::vector<SahItem> items;
+    UnsetVector<MicropolygonId> ids;
+    UnsetVector<SahItem> items;
     micropolygon_items(grids, summaries, ids, items);
     phases.prepare = clock.end_phase();
 

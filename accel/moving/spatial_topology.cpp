@@ -65,7 +65,7 @@ struct SpatialNode {
 /// takes memory for both of its sides.
 class SpatialBuilder {
   public:
-    SpatialBuilder(const Grids& grids, const std::vector<MicropolygonId>& ids, const SpatialOptions& options)
+    SpatialBuilder(const Grids& grids, std::span<const MicropolygonId> ids, const SpatialOptions& options)
         : grids_(grids), ids_(ids), options_(options) {}
 
     /// Sorts the items.
@@ -438,9 +438,9 @@ class SpatialBuilder {
     }
 
     const Grids& grids_;
-    const std::vector<MicropolygonId>& ids_;
+    std::span<const MicropolygonId> ids_;
     const SpatialOptions& options_;
-    std::vector<QuadPose> middle_;  ///< micropolygon -> where it is at mid-shutter; none without a budget
+    UnsetVector<QuadPose> middle_;  ///< micropolygon -> where it is at mid-shutter; none without a budget
     double root_area_ = 0;
     std::atomic<uint64_t> splits_{0};
     std::atomic<bool> lacked_budget_{false};
@@ -450,8 +450,7 @@ class SpatialBuilder {
 }  // namespace
 
 SpatialTopology build_spatial_topology(std::span<SahItem> items, const Grids& grids,
-                                       const std::vector<MicropolygonId>& ids,
-                                       const SpatialOptions& options) {
+                                       std::span<const MicropolygonId> ids, const SpatialOptions& options) {
     return SpatialBuilder(grids, ids, options).build(items);
 }
 

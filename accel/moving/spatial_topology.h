@@ -41,6 +41,6 @@ struct SpatialTopology {
 /// They are sorted. Deterministic, whatever the number of threads: the budget is shared out from the root
 /// down.
 SpatialTopology build_spatial_topology(std::span<SahItem> items, const Grids& grids,
-                                       const std::vector<MicropolygonId>& ids, const SpatialOptions& options);
+                                       std::span<const MicropolygonId> ids, const SpatialOptions& options);
 
 }  // namespace trapeze

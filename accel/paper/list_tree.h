@@ -9,6 +9,7 @@
 #include "accel/paper/top_level.h"
 #include "accel/traverse.h"
 #include "core/grid.h"
+#include "core/memory/large_pages.h"
 #include "core/stats.h"
 
 namespace trapeze {
@@ -49,7 +50,7 @@ class ListTree {
 
     const Grids* grids_;
     TopLevel top_;                               ///< leaf links are indices of lists
-    std::vector<MicropolygonId> micropolygons_;  ///< list after list
+    UnsetVector<MicropolygonId> micropolygons_;  ///< list after list
     std::vector<uint32_t> leaf_first_;           ///< list -> its first micropolygon; one more than lists
     BuildStats stats_;
 };

@@ -76,8 +76,8 @@ MicropolygonTree::MicropolygonTree(const Grids& grids, const PaperTreeOptions& o
 
 void MicropolygonTree::build_topology(const std::vector<GridSummary>& summaries,
                                       const PaperTreeOptions& options) {
-    std::vector<MicropolygonId> ids;
-    std::vector<SahItem> items;
+    UnsetVector<MicropolygonId> ids;
+    UnsetVector<SahItem> items;
     micropolygon_items(*grids_, summaries, ids, items);
 
     SahOptions sah;

@@ -10,8 +10,8 @@
 namespace trapeze {
 
 /// Sizes the nodes of a topology, and says which is below which.
-template <class Node>
-void link_nodes(const TopTopology& topology, size_t leaf_count, std::vector<Node>& nodes) {
+template <class Nodes>
+void link_nodes(const TopTopology& topology, size_t leaf_count, Nodes& nodes) {
     nodes.clear();
     if (leaf_count == 0) return;
     nodes.resize(2 * leaf_count - 1);

@@ -244,7 +244,7 @@ TEST(PaperTree, IsTheSameFromAnyNumberOfThreads) {
     Noise noise;
     GridMaker maker;
     add_sheets(maker, 3000, 2, noise);
-    std::vector<std::vector<KeyBox>> boxes;
+    std::vector<UnsetVector<KeyBox>> boxes;
     for (const size_t threads : {1, 2, 7}) {
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
         tbb::task_arena arena(static_cast<int>(threads));

@@ -75,7 +75,7 @@ class Bounding {
         top_.nodes[index] = {bound.absolute_max, bound.quad_extent, link, bound.frame};
         if (top_.oriented && link.is_leaf()) frames_[bound.frame] = FrameColumns(bound.box.frame);
         for (int key = 0; key < top_.key_count; ++key) {
-            KeyBox& box = top_.boxes[index * top_.key_count + key];
+            KeyBox& box = top_.boxes[index * top_.key_count + key] = KeyBox();
             for (int k = 0; k < 3; ++k) {
                 box.low[k] = bound.box.keys[key].min[k];
                 box.high[k] = bound.box.keys[key].max[k];

@@ -10,6 +10,7 @@
 #include "accel/paper/beam.h"
 #include "accel/ray_tree.h"
 #include "accel/slabs.h"
+#include "core/memory/large_pages.h"
 #include "core/motion_keys.h"
 
 namespace trapeze {
@@ -27,7 +28,7 @@ struct TopLevel {
 
     int key_count = 1;
     bool oriented = true;
-    std::vector<Node>
+    std::vector<Node, LargePages<Node>>
         nodes;  ///< children of inner node i at 2 i and 2 i + 1; the root last; none without grids
     /// A view keeps the rays that it has turned lately, for nodes that share a frame: a node has that of one
     /// of its children.
@@ -35,7 +36,7 @@ struct TopLevel {
     /// That nodes have; null unless oriented. Shared by the parts of a tree.
     std::shared_ptr<const std::vector<FrameColumns>> frames;
     /// key_count boxes a node, in its frame.
-    std::vector<KeyBox> boxes;
+    UnsetVector<KeyBox> boxes;
 
     /// What a node's boxes are coordinates of.
     const FrameColumns& frame_of(size_t node) const {
