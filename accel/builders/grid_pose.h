@@ -12,6 +12,8 @@ namespace trapeze {
 /// Vertices of one grid at a time. Made once for many grids, since it is large.
 class GridPose {
   public:
+    using Lanes = float __attribute__((vector_size(16)));
+
     /// Takes the vertices of a grid at one of its own keys, in camera space. Returns their largest
     /// coordinate; infinity where one is too large to be bounded, or no number.
     float read(const Grid& grid, int key);
@@ -42,9 +44,10 @@ class GridPose {
         }
     }
 
-  private:
-    using Lanes = float __attribute__((vector_size(16)));  ///< x y z of a vertex, and what nobody reads
+    /// Vertex (i, j): x y z, and what nobody reads.
+    const Lanes& vertex(int i, int j) const { return vertices_[j * kRow + i]; }
 
+  private:
     static Lanes least(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
     static Lanes most(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
 

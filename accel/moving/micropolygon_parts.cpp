@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "accel/moving/lane_pose.h"
 #include "core/hyper_trapezoid.h"
 
 namespace trapeze {
@@ -43,14 +44,6 @@ PartPolygon clipped(const PartPolygon& from, const QuadPose& pose, int axis, dou
     return to;
 }
 
-/// Without branches, which Box3f::extendBy() has.
-void extend(Box3f& box, const V3f& point) {
-    for (int k = 0; k < 3; ++k) {
-        box.min[k] = std::min(box.min[k], point[k]);
-        box.max[k] = std::max(box.max[k], point[k]);
-    }
-}
-
 }  // namespace
 
 QuadPose pose_of(const Grid& grid, const MicropolygonId& id, float time01) {
@@ -67,26 +60,8 @@ Box3f box_of(const QuadPose& pose) {
 }
 
 Chopped chop(const QuadPose& pose, const Box3f& box, int axis, float at) {
-    Chopped parts;
-    for (const V3f& corner : pose) {
-        if (corner[axis] <= at) extend(parts.low, corner);
-        if (corner[axis] >= at) extend(parts.high, corner);
-    }
-    // The four sides, and the diagonal that both triangles have.
-    constexpr std::array<std::array<size_t, 2>, 5> kEdges{{{0, 1}, {1, 3}, {3, 2}, {2, 0}, {0, 3}}};
-    for (const auto& [i, j] : kEdges) {
-        const V3f &a = pose[i], &b = pose[j];
-        if ((a[axis] < at) == (b[axis] < at) || a[axis] == at || b[axis] == at) continue;
-        V3f crossing = a + (b - a) * ((at - a[axis]) / (b[axis] - a[axis]));
-        crossing[axis] = at;
-        extend(parts.low, crossing), extend(parts.high, crossing);
-    }
-    // `box` may hold less than the polygon: earlier planes have cut it.
-    for (Box3f* part : {&parts.low, &parts.high})
-        for (int k = 0; k < 3; ++k)
-            part->min[k] = std::max(part->min[k], box.min[k]),
-            part->max[k] = std::min(part->max[k], box.max[k]);
-    return parts;
+    const LaneChopped parts = chop(LanePose(pose), LaneBox(box), axis, at);
+    return {parts.low.box(), parts.high.box()};
 }
 
 float part_slack(const QuadPose& pose) {
@@ -107,8 +82,13 @@ MicropolygonPart::MicropolygonPart(const QuadPose& pose, const Box3f& box) {
             polygon.add(weights);
         }
         for (int axis = 0; axis < 3; ++axis) {
-            polygon = clipped(polygon, pose, axis, static_cast<double>(box.min[axis]) - slack, 1);
-            polygon = clipped(polygon, pose, axis, static_cast<double>(box.max[axis]) + slack, -1);
+            const auto [least, most] =
+                std::minmax({pose[triangle[0]][axis], pose[triangle[1]][axis], pose[triangle[2]][axis]});
+            const double low = static_cast<double>(box.min[axis]) - slack,
+                         high = static_cast<double>(box.max[axis]) + slack;
+            // Most planes of a box have the triangle on one side.
+            if (static_cast<double>(least) < low) polygon = clipped(polygon, pose, axis, low, 1);
+            if (static_cast<double>(most) > high) polygon = clipped(polygon, pose, axis, high, -1);
         }
         for (size_t i = 0; i < polygon.count; ++i) weights_[count_++] = polygon.vertex[i];
     }

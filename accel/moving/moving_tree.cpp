@@ -150,7 +150,7 @@ void MovingTree::build_spatial(const SweptBoxes& boxes, PhaseClock& clock, Build
     // The boxes of the second form have to hold all of the whole box together.
     spatial.tight = options_.clipping != MovingTreeOptions::Clipping::Box;
     phases.prepare = clock.end_phase();
-    SpatialTopology topology = build_spatial_topology(items, *grids_, ids, spatial);
+    SpatialTopology topology = build_spatial_topology(items, *grids_, spatial);
     phases.divide = clock.end_phase(), phases.divide_work = topology.work;
     phases.cut_work = topology.cut_work;
     stats_.tree_splits = topology.splits, stats_.lacked_budget = topology.lacked_budget;

@@ -233,8 +233,8 @@ TEST(SpatialTopology, ReferencesHoldAllOfTheirMicropolygons) {
     UnsetVector<SahItem> items;
     micropolygon_items(maker.grids(), framed_summaries(maker.grids(), {}), ids, items);
     for (const bool tight : {true, false}) {
-        const SpatialTopology topology = build_spatial_topology(
-            items, maker.grids(), ids, {.leaf_below = 4, .budget = 8000, .tight = tight});
+        const SpatialTopology topology =
+            build_spatial_topology(items, maker.grids(), {.leaf_below = 4, .budget = 8000, .tight = tight});
         EXPECT_GT(topology.splits, 20u);
         std::vector<std::vector<Box3f>> boxes(ids.size());
         for (const SahItem& reference : topology.references)

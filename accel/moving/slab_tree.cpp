@@ -55,7 +55,7 @@ SlabTree::SlabTree(const Grids& grids, const SlabTreeOptions& options) : grids_(
 
     SpatialOptions spatial;
     spatial.leaf_below = static_cast<size_t>(options.leaf);
-    SpatialTopology topology = build_spatial_topology(items, grids, ids, spatial);
+    SpatialTopology topology = build_spatial_topology(items, grids, spatial);
     phases.divide = clock.end_phase(), phases.divide_work = topology.work;
     items = {};
     leaf_first_ = std::move(topology.leaf_first);

@@ -1,5 +1,7 @@
 #include "accel/moving/spatial_topology.h"
 
+#include <tbb/concurrent_vector.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
@@ -10,17 +12,14 @@
 #include <memory>
 #include <span>
 
-#include "accel/builders/box_sum.h"
 #include "accel/builders/build_clock.h"
+#include "accel/builders/grid_pose.h"
 #include "accel/builders/sah_bins.h"
 #include "accel/builders/sah_sweep.h"
+#include "accel/moving/cut_planes.h"
 
 namespace trapeze {
 namespace {
-
-/// Planes are tried between so many slabs along an axis; of small nodes between fewer, for there are few
-/// places where it matters.
-constexpr size_t kMostSlabs = 16, kLeastSlabs = 4;
 
 /// Nodes of up to this many references are parted at the best of all places, larger ones at the best of bins'
 /// planes.
@@ -36,49 +35,87 @@ constexpr double kVisitCost = 2;
 
 constexpr size_t kNodeIsTaskFrom = 1024;  ///< references below which a subtree is one task
 
-/// A plane that cuts a node, what the node costs then, and the boxes and numbers of references on its sides.
-struct Cut {
-    double cost = sah::kInfinite;
-    int axis = 0;
-    float at = 0;
-    Box3f low, high;
-    size_t low_count = 0, high_count = 0;
-    /// No plane of the same slabs costs less, whatever is in the boxes that it cuts: sides hold what they
-    /// hold whole. But for parts whose boxes are larger than their polygons: some cuts of such are not found.
-    double least = sah::kInfinite;
-};
+/// Parts of up to this many references are parted with room that each thread keeps.
+constexpr size_t kPartHereUpTo = 4096;
 
-/// References on the sides of a cut.
+/// References on the sides of a cut, in one room: those of the low side come first, those of the high side
+/// last, from the end on while they are added.
 struct Sides {
-    std::vector<SahItem> low, high;
+    std::span<SahItem> room;
+    size_t low = 0, high = 0;  ///< so many of each
+
+    void add_low(const SahItem& item) { std::construct_at(&room[low++], item); }
+    void add_high(const SahItem& item) { std::construct_at(&room[room.size() - ++high], item); }
 };
 
-/// A node while the tree is built. References lie in the caller's array, or in that of the nearest ancestor
-/// that was cut.
-struct SpatialNode {
-    std::unique_ptr<SpatialNode> low, high;  ///< none of a leaf
-    std::span<const SahItem> references;     ///< of a leaf
-    std::vector<SahItem> of_cut;  ///< what is below a node that was cut: more than there was before
+/// What is below a node.
+struct Counts {
+    uint32_t inner = 0, leaves = 0, references = 0;
+
+    Counts operator+(const Counts& o) const {
+        return {inner + o.inner, leaves + o.leaves, references + o.references};
+    }
 };
+
+/// A node while the tree is built. References lie in the caller's array, or in the room of the nearest
+/// ancestor that was cut.
+struct SpatialNode {
+    SpatialNode *low = nullptr, *high = nullptr;  ///< none of a leaf
+    std::span<const SahItem> references;          ///< of a leaf
+    Counts counts;                                ///< of the node and what is below it
+};
+
+/// Nodes of one thread, given back together.
+class NodePool {
+  public:
+    SpatialNode* make() {
+        if (used_ == (chunks_.empty() ? 0 : chunks_.back().size())) {
+            chunks_.emplace_back(kLeast << std::min(chunks_.size(), kDoublings));
+            used_ = 0;
+        }
+        return std::construct_at(&chunks_.back()[used_++]);
+    }
+
+  private:
+    static constexpr size_t kLeast = 256, kDoublings = 8;  ///< of the first chunk; of those after it
+    std::vector<UnsetVector<SpatialNode>> chunks_;
+    size_t used_ = 0;  ///< of the last chunk
+};
+
+/// std::stable_partition() that keeps its room, but for large parts.
+template <class IsLow>
+size_t part_in_order(std::span<SahItem> items, const IsLow& is_low) {
+    static thread_local UnsetVector<SahItem> kept(kPartHereUpTo);
+    UnsetVector<SahItem> of_large(items.size() > kPartHereUpTo ? items.size() : 0);
+    SahItem* const high = of_large.empty() ? kept.data() : of_large.data();
+    size_t low_count = 0, high_count = 0;
+    for (const SahItem& item : items) {
+        if (is_low(item))
+            items[low_count++] = item;
+        else
+            high[high_count++] = item;
+    }
+    std::copy_n(high, high_count, items.begin() + static_cast<std::ptrdiff_t>(low_count));
+    return low_count;
+}
 
 /// Builds from the root down. Parting sorts references where they are; only a cut makes more of them, and
 /// takes memory for both of its sides.
 class SpatialBuilder {
   public:
-    SpatialBuilder(const Grids& grids, std::span<const MicropolygonId> ids, const SpatialOptions& options)
-        : grids_(grids), ids_(ids), options_(options) {}
+    SpatialBuilder(const Grids& grids, const SpatialOptions& options) : grids_(grids), options_(options) {}
 
     /// Sorts the items.
     SpatialTopology build(std::span<SahItem> items) {
         SpatialTopology result;
         if (!items.empty()) {
-            BoxSum all;
-            for (const SahItem& item : items) all.add(item.box);
-            root_area_ = half_area(all.box());
+            root_area_ = half_area(sah::sum_of(std::span<const SahItem>(items), sah::Bin{}).box());
             if (options_.budget > 0) pose_all();
-            const std::unique_ptr<SpatialNode> root = build_task(items, options_.budget, 0);
-            result.references.reserve(items.size());
-            result.tree.root = number(*root, result);
+            const SpatialNode* const root = build_task(items, options_.budget, 0);
+            result.tree.inner.resize(root->counts.inner);
+            result.leaf_first.resize(root->counts.leaves);
+            result.references.resize(root->counts.references);
+            result.tree.root = number(*root, {}, result);
         }
         result.leaf_first.push_back(static_cast<uint32_t>(result.references.size()));
         result.splits = splits_, result.lacked_budget = lacked_budget_;
@@ -91,26 +128,26 @@ class SpatialBuilder {
     using References = std::span<SahItem>;
 
     /// A subtree whose two sides are tasks of their own where it is large.
-    std::unique_ptr<SpatialNode> build_task(References references, size_t budget, int depth) {
+    SpatialNode* build_task(References references, size_t budget, int depth) {
         if (references.size() >= kNodeIsTaskFrom) return build_node(references, budget, depth);
         const WorkSum::Span span(work_);
         return build_node(references, budget, depth);
     }
 
     /// Divides a node of a task; large ones are in none, and say what they take themselves.
-    bool divide_in_task(References references, size_t budget, int depth, SpatialNode& node, References& low,
-                        References& high) {
-        if (references.size() < kNodeIsTaskFrom) return divide(references, budget, depth, node, low, high);
+    bool divide_in_task(References references, size_t budget, int depth, References& low, References& high) {
+        if (references.size() < kNodeIsTaskFrom) return divide(references, budget, depth, low, high);
         const WorkSum::Span span(work_);
-        return divide(references, budget, depth, node, low, high);
+        return divide(references, budget, depth, low, high);
     }
 
-    std::unique_ptr<SpatialNode> build_node(References references, size_t budget, int depth) {
-        auto node = std::make_unique<SpatialNode>();
+    SpatialNode* build_node(References references, size_t budget, int depth) {
+        SpatialNode* const node = pools_.local().make();
         const size_t count = references.size();
         References low, high;
-        if (count < 2 || !divide_in_task(references, budget, depth, *node, low, high)) {
+        if (count < 2 || !divide_in_task(references, budget, depth, low, high)) {
             node->references = references;
+            node->counts = {0, 1, static_cast<uint32_t>(count)};
             return node;
         }
         // What is left of the budget goes with the references.
@@ -125,6 +162,7 @@ class SpatialBuilder {
             tbb::parallel_invoke([&] { node->low = build_task(low, low_budget, depth + 1); },
                                  [&] { node->high = build_task(high, left - low_budget, depth + 1); });
         }
+        node->counts = Counts{1, 0, 0} + node->low->counts + node->high->counts;
         return node;
     }
 
@@ -172,16 +210,14 @@ class SpatialBuilder {
             std::copy_n(sorted.begin(), references.size(), references.begin());
             return best.split.place;
         }
-        const auto middle =
-            std::stable_partition(references.begin(), references.end(), [&](const SahItem& item) {
-                return static_cast<size_t>(best.binning.bin_of(item, best.split.axis)) < best.split.place;
-            });
-        return static_cast<size_t>(middle - references.begin());
+        const auto is_low = [&](const SahItem& item) {
+            return static_cast<size_t>(best.binning.bin_of(item, best.split.axis)) < best.split.place;
+        };
+        return part_in_order(references, is_low);
     }
 
     /// Divides a node's references onto two sides, neither of which is empty; false: it is a leaf.
-    bool divide(References references, size_t budget, int depth, SpatialNode& node, References& low,
-                References& high) {
+    bool divide(References references, size_t budget, int depth, References& low, References& high) {
         const bool may_be_leaf = references.size() < options_.leaf_below;
         size_t middle = references.size() / 2;
         if (depth < kSahDepthLimit) {
@@ -192,7 +228,7 @@ class SpatialBuilder {
             const double visit = half_area(box) * (kVisitCost - kTraversalCost);
             const double leaf_cost = may_be_leaf ? extent.all.cost() - visit : sah::kInfinite;
             const double to_beat = std::min(parting.split.cost, leaf_cost);
-            if (cut(references, box, parting, to_beat, budget, node, low, high)) return true;
+            if (cut(references, box, parting, to_beat, budget, low, high)) return true;
             if (may_be_leaf && !(parting.split.cost < leaf_cost)) return false;
             if (parting.split.cost < sah::kInfinite) middle = part(parting, references);
         } else if (may_be_leaf) {
@@ -204,23 +240,24 @@ class SpatialBuilder {
 
     /// Cuts a node by a plane where that costs less than `to_beat`; false: nothing was done.
     bool cut(std::span<const SahItem> references, const Box3f& box, const Parting& parting, double to_beat,
-             size_t budget, SpatialNode& node, References& low, References& high) {
+             size_t budget, References& low, References& high) {
         if (options_.budget == 0 || !sides_overlap(parting)) return false;
         const WorkSum::Span span(cut_work_);
-        const Cut best = best_cut(references, box, to_beat);
+        const CutPlanes planes(middle_, options_.tight);
+        const Cut best = planes.best(references, box, to_beat);
         if (!(best.cost < to_beat)) return false;
         if (budget == 0) {
             lacked_budget_.store(true, std::memory_order_relaxed);
             return false;
         }
-        Sides sides;
+        UnsetVector<SahItem> room(references.size() + std::min(references.size(), budget));
+        Sides sides{room};
         cut_by(best, references, budget, sides);
-        if (sides.low.empty() || sides.high.empty()) return false;
+        if (sides.low == 0 || sides.high == 0) return false;
         splits_.fetch_add(1, std::memory_order_relaxed);
-        node.of_cut = std::move(sides.low);
-        const size_t middle = node.of_cut.size();
-        node.of_cut.insert(node.of_cut.end(), sides.high.begin(), sides.high.end());
-        low = References(node.of_cut).first(middle), high = References(node.of_cut).subspan(middle);
+        low = sides.room.first(sides.low), high = sides.room.last(sides.high);
+        rooms_.push_back(std::move(room));
+        std::ranges::reverse(high);  // into the order in which they come
         return true;
     }
 
@@ -238,145 +275,21 @@ class SpatialBuilder {
 
     /// Every level of the tree asks for poses: interpolating them anew was a fifth of the build.
     void pose_all() {
-        middle_.resize(ids_.size());
-        tbb::parallel_for(size_t{0}, ids_.size(),
-                          [&](size_t i) { middle_[i] = pose_of(grids_.grids[ids_[i].grid], ids_[i], 0.5f); });
-    }
-    const QuadPose& pose_at_middle(uint32_t id) const { return middle_[PartId::index(id)]; }
-    /// The two parts of a reference's box: those of its polygon (tight), or of the box alone.
-    Chopped divided(const QuadPose& pose, const Box3f& box, int axis, float at) const {
-        return options_.tight ? chop(pose, box, axis, at) : cut_box(box, axis, at);
-    }
-    static Chopped cut_box(const Box3f& box, int axis, float at) {
-        Chopped parts{box, box};
-        parts.low.max[axis] = parts.high.min[axis] = at;
-        return parts;
-    }
-
-    /// The planes between slabs of a node's box along an axis; none where coordinates are as coarse as slabs,
-    /// or slabs too thin to be counted.
-    struct Slabs {
-        int axis;
-        size_t count = 0;
-        std::array<float, kMostSlabs + 1> planes;
-
-        Slabs(const Box3f& box, int along, size_t references) : axis(along) {
-            const size_t wanted = std::clamp(references / 4, kLeastSlabs, kMostSlabs);
-            for (size_t i = 0; i <= wanted; ++i)
-                planes[i] = box.min[axis] + (box.max[axis] - box.min[axis]) *
-                                                (static_cast<float>(i) / static_cast<float>(wanted));
-            const auto end = planes.begin() + static_cast<std::ptrdiff_t>(wanted) + 1;
-            if (std::adjacent_find(planes.begin(), end, std::greater_equal<>()) == end) count = wanted;
-            if (count == 0) return;
-            per_unit_ = static_cast<float>(count) / (planes[count] - planes[0]);
-            if (!std::isfinite(per_unit_)) count = 0;
-            last_ = static_cast<float>(count - 1);
-        }
-        size_t of(float x) const {
-            const float along_slabs = (x - planes[0]) * per_unit_;
-            auto slab = static_cast<size_t>(static_cast<int>(std::clamp(along_slabs, 0.0f, last_)));
-            while (slab > 0 && x < planes[slab]) --slab;  // what was rounded
-            while (slab + 1 < count && x >= planes[slab + 1]) ++slab;
-            return slab;
-        }
-
-      private:
-        float per_unit_ = 0, last_ = 0;
-    };
-
-    /// What lies in a slab: boxes, and how many references begin and end there; whole boxes of these.
-    struct InSlab {
-        BoxSum boxes, of_begin, of_end;
-        uint32_t begin = 0, end = 0;
-
-        void begins(const Box3f& whole) { of_begin.add(whole), ++begin; }
-        void ends(const Box3f& whole) { of_end.add(whole), ++end; }
-    };
-    using InSlabs = std::array<InSlab, kMostSlabs>;
-
-    /// The cheapest of the planes between slabs along that axis which is best if boxes are cut without
-    /// looking at what is in them: that tells the axis, and spares two thirds of the work. What is in them is
-    /// not looked at either where no plane can cost less than `to_beat`.
-    Cut best_cut(std::span<const SahItem> references, const Box3f& box, double to_beat) const {
-        Cut rough;
-        for (int axis = 0; axis < 3; ++axis)
-            consider_planes(references, Slabs(box, axis, references.size()), half_area(box), false, rough);
-        if (!options_.tight || !(rough.cost < sah::kInfinite)) return rough;
-        Cut best;
-        if (!(rough.least < to_beat)) return best;
-        consider_planes(references, Slabs(box, rough.axis, references.size()), half_area(box), true, best);
-        return best;
-    }
-
-    /// A reference counts below a plane if it begins below, and above if it ends above: what the plane cuts
-    /// counts on both sides [Stich09].
-    void consider_planes(std::span<const SahItem> references, const Slabs& slabs, double node_area,
-                         bool tight, Cut& best) const {
-        if (slabs.count == 0) return;
-        InSlabs in;
-        if (tight)
-            add_polygons(references, slabs, in);
-        else
-            add_boxes(references, slabs, in);
-        const double visit = node_area * kTraversalCost;
-        std::array<BoxSum, kMostSlabs + 1> above;
-        std::array<double, kMostSlabs> area_above, whole_area_above;
-        BoxSum whole_above;
-        for (size_t i = slabs.count; i-- > 1;) {
-            above[i] = above[i + 1], above[i].add(in[i].boxes);
-            whole_above.add(in[i].of_begin);
-            area_above[i] = half_area(above[i].box()), whole_area_above[i] = half_area(whole_above.box());
-        }
-        Cut here;
-        BoxSum below, whole_below;
-        size_t low = 0, high = references.size();
-        for (size_t i = 1; i < slabs.count; ++i) {
-            below.add(in[i - 1].boxes), whole_below.add(in[i - 1].of_end);
-            low += in[i - 1].begin, high -= in[i - 1].end;
-            if (low == 0 || high == 0) continue;
-            here.least =
-                std::min(here.least, visit + half_area(whole_below.box()) * static_cast<double>(low) +
-                                         whole_area_above[i] * static_cast<double>(high));
-            const Box3f low_box = below.box();
-            const double cost = visit + half_area(low_box) * static_cast<double>(low) +
-                                area_above[i] * static_cast<double>(high);
-            if (cost < here.cost)
-                here = {cost, slabs.axis, slabs.planes[i], low_box, above[i].box(), low, high, here.least};
-        }
-        if (here.cost < best.cost) best = here;
-    }
-
-    static void add_boxes(std::span<const SahItem> references, const Slabs& slabs, InSlabs& in) {
-        for (const SahItem& item : references) {
-            const size_t first = slabs.of(item.box.min[slabs.axis]);
-            const size_t last = std::max(first, slabs.of(item.box.max[slabs.axis]));
-            in[first].begins(item.box), in[last].ends(item.box);
-            for (size_t slab = first; slab <= last; ++slab) in[slab].boxes.add(item.box);
-        }
-        // What planes cut off is the same for all boxes in a slab.
-        for (size_t slab = 0; slab < slabs.count; ++slab) {
-            if (slab > 0) in[slab].boxes.cut_below(slabs.axis, slabs.planes[slab]);
-            if (slab + 1 < slabs.count) in[slab].boxes.cut_above(slabs.axis, slabs.planes[slab + 1]);
-        }
-    }
-
-    /// Cuts polygons slab by slab from below: what is left above a plane goes on to the next one.
-    void add_polygons(std::span<const SahItem> references, const Slabs& slabs, InSlabs& in) const {
-        for (const SahItem& item : references) {
-            const size_t first = slabs.of(item.box.min[slabs.axis]);
-            const size_t last = std::max(first, slabs.of(item.box.max[slabs.axis]));
-            in[first].begins(item.box), in[last].ends(item.box);
-            Box3f rest = item.box;
-            if (first < last) {
-                const QuadPose& pose = pose_at_middle(item.id);
-                for (size_t slab = first; slab < last && !rest.isEmpty(); ++slab) {
-                    const Chopped parts = chop(pose, rest, slabs.axis, slabs.planes[slab + 1]);
-                    if (!parts.low.isEmpty()) in[slab].boxes.add(parts.low);
-                    rest = parts.high;
-                }
-            }
-            if (!rest.isEmpty()) in[last].boxes.add(rest);
-        }
+        std::vector<uint32_t> first(grids_.grids.size());
+        uint32_t count = 0;
+        for (size_t g = 0; g < first.size(); ++g)
+            first[g] = count, count += static_cast<uint32_t>(grids_.grids[g].shape.micropolygon_count());
+        middle_.resize(count);
+        tbb::parallel_for(size_t{0}, first.size(), [&](size_t g) {
+            const Grid& grid = grids_.grids[g];
+            GridPose pose;
+            pose.set(grid.shape, [&](int i, int j) { return grid.vertex(i, j, 0.5f); });
+            LanePose* to = middle_.data() + first[g];
+            for (int v = 0; v < grid.shape.nv; ++v)
+                for (int u = 0; u < grid.shape.nu; ++u, ++to)
+                    std::construct_at(to, pose.vertex(u, v), pose.vertex(u + 1, v), pose.vertex(u, v + 1),
+                                      pose.vertex(u + 1, v + 1));
+        });
     }
 
     /// Puts references on the sides of a plane: on both where it cuts them, but for those that cost less
@@ -384,9 +297,9 @@ class SpatialBuilder {
     void cut_by(Cut cut, std::span<const SahItem> references, size_t budget, Sides& sides) {
         for (const SahItem& item : references) {
             if (item.box.max[cut.axis] <= cut.at)
-                sides.low.push_back(item);
+                sides.add_low(item);
             else if (item.box.min[cut.axis] >= cut.at)
-                sides.high.push_back(item);
+                sides.add_high(item);
             else
                 cut_reference(item, cut, budget, sides);
         }
@@ -395,10 +308,10 @@ class SpatialBuilder {
     /// One that the plane goes through: cut, or whole on the side where that costs least. A side that takes
     /// it whole grows, and the other counts one less, so that those which follow are judged by that.
     void cut_reference(const SahItem& item, Cut& cut, size_t& budget, Sides& sides) {
-        const Chopped parts = divided(pose_at_middle(item.id), item.box, cut.axis, cut.at);
-        if (parts.low.isEmpty() || parts.high.isEmpty()) {
+        const LaneChopped parts = CutPlanes(middle_, options_.tight).divided(item, cut.axis, cut.at);
+        if (parts.low.is_empty() || parts.high.is_empty()) {
             // Its polygon is on one side but for rounding.
-            (parts.low.isEmpty() ? sides.high : sides.low).push_back(item);
+            parts.low.is_empty() ? sides.add_high(item) : sides.add_low(item);
             return;
         }
         Box3f low_with = cut.low, high_with = cut.high;
@@ -412,35 +325,41 @@ class SpatialBuilder {
         if (budget == 0) lacked_budget_.store(true, std::memory_order_relaxed);
         if (budget > 0 && both <= std::min(in_low, in_high)) {
             --budget;
-            sides.low.push_back({parts.low, 1, item.id | PartId::kPart});
-            sides.high.push_back({parts.high, 1, item.id | PartId::kPart});
+            sides.add_low({parts.low.box(), 1, item.id | PartId::kPart});
+            sides.add_high({parts.high.box(), 1, item.id | PartId::kPart});
         } else if (in_low <= in_high) {
-            sides.low.push_back(item);
+            sides.add_low(item);
             cut.low = low_with, --cut.high_count;
         } else {
-            sides.high.push_back(item);
+            sides.add_high(item);
             cut.high = high_with, --cut.low_count;
         }
     }
 
-    /// Inner nodes in preorder, leaves from left to right.
-    static TopLink number(const SpatialNode& node, SpatialTopology& result) {
+    /// Inner nodes in preorder, leaves from left to right, each from `first` on.
+    static TopLink number(const SpatialNode& node, const Counts& first, SpatialTopology& result) {
         if (!node.low) {
-            result.leaf_first.push_back(static_cast<uint32_t>(result.references.size()));
-            result.references.insert(result.references.end(), node.references.begin(), node.references.end());
-            return TopLink::leaf(static_cast<uint32_t>(result.leaf_first.size() - 1));
+            result.leaf_first[first.leaves] = first.references;
+            std::ranges::uninitialized_copy(node.references,
+                                            std::span(result.references).subspan(first.references));
+            return TopLink::leaf(first.leaves);
         }
-        const auto index = static_cast<uint32_t>(result.tree.inner.size());
-        result.tree.inner.emplace_back();
-        const TopLink low = number(*node.low, result), high = number(*node.high, result);
-        result.tree.inner[index] = {low, high};
-        return TopLink::inner(index);
+        const Counts first_low = first + Counts{1, 0, 0}, first_high = first_low + node.low->counts;
+        auto& [low, high] = result.tree.inner[first.inner];
+        const auto number_low = [&] { low = number(*node.low, first_low, result); };
+        const auto number_high = [&] { high = number(*node.high, first_high, result); };
+        if (node.counts.references >= kNodeIsTaskFrom)
+            tbb::parallel_invoke(number_low, number_high);
+        else
+            number_low(), number_high();
+        return TopLink::inner(first.inner);
     }
 
     const Grids& grids_;
-    std::span<const MicropolygonId> ids_;
     const SpatialOptions& options_;
-    UnsetVector<QuadPose> middle_;  ///< micropolygon -> where it is at mid-shutter; none without a budget
+    UnsetVector<LanePose> middle_;  ///< micropolygon -> where it is at mid-shutter; none without a budget
+    tbb::enumerable_thread_specific<NodePool> pools_;
+    tbb::concurrent_vector<UnsetVector<SahItem>> rooms_;  ///< of references below nodes that were cut
     double root_area_ = 0;
     std::atomic<uint64_t> splits_{0};
     std::atomic<bool> lacked_budget_{false};
@@ -450,8 +369,8 @@ class SpatialBuilder {
 }  // namespace
 
 SpatialTopology build_spatial_topology(std::span<SahItem> items, const Grids& grids,
-                                       std::span<const MicropolygonId> ids, const SpatialOptions& options) {
-    return SpatialBuilder(grids, ids, options).build(items);
+                                       const SpatialOptions& options) {
+    return SpatialBuilder(grids, options).build(items);
 }
 
 }  // namespace trapeze

@@ -9,6 +9,7 @@
 
 #include "accel/builders/sah_topology.h"
 #include "accel/moving/micropolygon_parts.h"
+#include "core/memory/large_pages.h"
 
 namespace trapeze {
 
@@ -31,16 +32,16 @@ struct SpatialOptions {
 struct SpatialTopology {
     TopTopology tree;                  ///< its leaves are numbered from left to right
     std::vector<uint32_t> leaf_first;  ///< leaf -> its first reference; one more than leaves
-    std::vector<SahItem> references;   ///< in the order of leaves
+    UnsetVector<SahItem> references;   ///< in the order of leaves
     uint64_t splits = 0;               ///< nodes that a plane cuts
     bool lacked_budget = false;        ///< some node would have been cut, had there been more
     double work = 0, cut_work = 0;     ///< seconds of all threads: in all, and on planes that cut
 };
 
-/// `items`: a micropolygon each, whose id is its place in `ids`; the box of one that is a point is never cut.
-/// They are sorted. Deterministic, whatever the number of threads: the budget is shared out from the root
-/// down.
+/// `items`: a micropolygon each, as micropolygon_items() has them; the box of one that is a point is never
+/// cut. They are sorted. Deterministic, whatever the number of threads: the budget is shared out from the
+/// root down.
 SpatialTopology build_spatial_topology(std::span<SahItem> items, const Grids& grids,
-                                       std::span<const MicropolygonId> ids, const SpatialOptions& options);
+                                       const SpatialOptions& options);
 
 }  // namespace trapeze
