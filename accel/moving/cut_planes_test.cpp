@@ -42,7 +42,7 @@ Chopped chop_by_points(const QuadPose& pose, const Box3f& box, int axis, float a
     return parts;
 }
 
-QuadPose noisy_pose(Noise& noise, float extent) {
+QuadPose pose_about(Noise& noise, float extent) {
     const V3f at = noise.point(3);
     QuadPose pose;
     for (V3f& corner : pose) corner = at + noise.point(extent);
@@ -60,7 +60,7 @@ void expect_same(const Box3f& a, const Box3f& b, int round) {
 TEST(CutPlanes, ChopsInVectorsAsInPlainCode) {
     Noise noise;
     for (int round = 0; round < 20000; ++round) {
-        QuadPose pose = noisy_pose(noise, 2);
+        QuadPose pose = pose_about(noise, 2.0f);
         if (round % 4 == 1) pose[2] = pose[0], pose[3] = pose[1];
         if (round % 5 == 2) pose.fill(pose[0]);
         const int axis = round % 3;
@@ -105,7 +105,7 @@ TEST_P(CutPlanesOfNodes, CostLeast) {
         std::vector<SahItem> items;
         Box3f node;
         for (uint32_t i = 0; i < count; ++i) {
-            poses.push_back(noisy_pose(noise, round % 2 ? 2 : .4f));
+            poses.push_back(pose_about(noise, round % 2 ? 2.0f : .4f));
             lanes.emplace_back(poses.back());
             items.push_back({box_of(poses.back()), 1, i});
             node.extendBy(items.back().box);

@@ -345,9 +345,9 @@ class SpatialBuilder {
             return TopLink::leaf(first.leaves);
         }
         const Counts first_low = first + Counts{1, 0, 0}, first_high = first_low + node.low->counts;
-        auto& [low, high] = result.tree.inner[first.inner];
-        const auto number_low = [&] { low = number(*node.low, first_low, result); };
-        const auto number_high = [&] { high = number(*node.high, first_high, result); };
+        std::array<TopLink, 2>& links = result.tree.inner[first.inner];
+        const auto number_low = [&] { links[0] = number(*node.low, first_low, result); };
+        const auto number_high = [&] { links[1] = number(*node.high, first_high, result); };
         if (node.counts.references >= kNodeIsTaskFrom)
             tbb::parallel_invoke(number_low, number_high);
         else
