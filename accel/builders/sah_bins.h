@@ -59,15 +59,26 @@ struct Extent {
 
 /// The rule that gives an item its bin along each axis: kBins equal parts of the centroids' box.
 struct Binning {
-    V3f from, scale;  ///< scale 0: an axis without extent
+    using Lanes = BoxLanes::Lanes;
 
-    explicit Binning(const Box3f& centroids) : from(centroids.min) {
+    Lanes from{}, scale{};  ///< along x, y, z; scale 0: an axis without extent
+
+    explicit Binning(const Box3f& centroids) {
         const V3f extent = centroids.max - centroids.min;
-        for (int k = 0; k < 3; ++k) scale[k] = extent[k] > 0 ? kBins / extent[k] : 0;
+        for (int k = 0; k < 3; ++k)
+            from[k] = centroids.min[k], scale[k] = extent[k] > 0 ? kBins / extent[k] : 0;
+    }
+    /// Along all axes at once.
+    std::array<int32_t, 3> bins_of(const BoxLanes& box) const {
+        const Lanes high = __builtin_shufflevector(box.high, box.high, 1, 2, 3, 3), none{};
+        Lanes at = (box.low * 0.5f + high * 0.5f - from) * scale;
+        at = at > none ? at : none;  // NaN too
+        at = at < kBins - 1.0f ? at : none + (kBins - 1.0f);
+        const auto bins = __builtin_convertvector(at, decltype(at < at));
+        return {bins[0], bins[1], bins[2]};
     }
     int bin_of(const SahItem& item, int axis) const {
-        const float at = (item.centroid()[axis] - from[axis]) * scale[axis];
-        return at > 0 ? static_cast<int>(std::min(at, kBins - 1.0f)) : 0;  // NaN too
+        return bins_of(BoxLanes(item.box))[static_cast<size_t>(axis)];
     }
 };
 
@@ -77,8 +88,14 @@ struct Bins {
     std::array<std::array<Bin, kBins>, 3> of_axis;
 
     void add(const SahItem& item) {
-        for (int axis = 0; axis < 3; ++axis)
-            if (binning->scale[axis] > 0) of_axis[axis][binning->bin_of(item, axis)].add(item);
+        const BoxLanes box(item.box);
+        const std::array<int32_t, 3> bins = binning->bins_of(box);
+        for (size_t axis = 0; axis < 3; ++axis) {
+            // Along an axis without extent all are in the first bin, which nobody asks for.
+            Bin& bin = of_axis[axis][static_cast<size_t>(bins[axis])];
+            bin.boxes.add(box);
+            bin.weight += item.weight, ++bin.count;
+        }
     }
     void add(const Bins& o) {
         for (int axis = 0; axis < 3; ++axis)
@@ -90,7 +107,9 @@ struct Bins {
 /// integers.
 template <class Sum>
 Sum sum_of(std::span<const SahItem> part, const Sum& zero) {
-    const auto add = [&](size_t first, size_t last, Sum sum) {
+    // Sums may be kilobytes: they are copied as little as can be.
+    const auto add = [&](size_t first, size_t last, const Sum& to) {
+        Sum sum = to;
         for (size_t i = first; i < last; ++i) sum.add(part[i]);
         return sum;
     };

@@ -45,6 +45,11 @@ struct alignas(64) LanePose {
     explicit LanePose(const std::array<V3f, 4>& corners) {
         for (size_t c = 0; c < 4; ++c) corner[c] = Lanes{corners[c].x, corners[c].y, corners[c].z, 0};
     }
+    std::array<V3f, 4> corners() const {
+        std::array<V3f, 4> points;
+        for (size_t c = 0; c < 4; ++c) points[c] = V3f(corner[c][0], corner[c][1], corner[c][2]);
+        return points;
+    }
 };
 
 /// What lies on either side of a plane; empty where nothing does.

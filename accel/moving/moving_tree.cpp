@@ -68,6 +68,7 @@ struct MovingTree::Sources {
     const SweptBoxes& boxes;
     std::span<const uint32_t> references;  ///< PartIds of places in `boxes`, list after list
     std::span<const SahItem> parts;        ///< as the references, where some are to parts
+    std::span<const LanePose> poses;       ///< of micropolygons at mid-shutter, where there are parts
     const LastFrame* last = nullptr;       ///< else it says which are, and of what
 };
 
@@ -129,7 +130,7 @@ void MovingTree::build() {
         phases.divide = clock.end_phase();
         leaf_first_ = std::move(topology.leaf_first);
         link_nodes(topology.tree, leaf_count(), top_.nodes);
-        bound({boxes, topology.items, {}});
+        bound({boxes, topology.items, {}, {}});
     } else {
         build_spatial(boxes, clock, phases);
     }
@@ -167,7 +168,7 @@ void MovingTree::build_spatial(const SweptBoxes& boxes, PhaseClock& clock, Build
         for (uint32_t r = first; r < last; ++r) references[r] = topology.references[r].id;
     });
     link_nodes(topology.tree, leaf_count(), top_.nodes);
-    bound({boxes, references, topology.references});
+    bound({boxes, references, topology.references, topology.poses});
 }
 
 bool MovingTree::lists_hold(const Grids& grids) const {
@@ -193,7 +194,7 @@ void MovingTree::refit(const Grids& grids) {
     }
     const LastFrame last = last_frame(std::move(times));
     grids_ = &grids;
-    bound({boxes, references, {}, &last});
+    bound({boxes, references, {}, {}, &last});
 }
 
 MovingTree::LastFrame MovingTree::last_frame(std::vector<uint32_t> times) const {
@@ -264,8 +265,8 @@ std::span<const Box3f> MovingTree::boxes_of(const Sources& sources, size_t r, si
         there = std::span(boxes.of_part).first(1);
     } else if (PartId::is_part(reference)) {
         const Grid& grid = grids_->grids[id.grid];
-        boxes_of_part(grid, id, sources.parts[r].box, pose_of(grid, id, .5f), options_.clipping, whole,
-                      boxes.of_part);
+        boxes_of_part(grid, id, sources.parts[r].box, sources.poses[PartId::index(reference)].corners(),
+                      options_.clipping, whole, boxes.of_part);
         there = std::span(boxes.of_part).first(whole.size());
     } else if (sources.last && sources.last->times[reference] > 1) {
         if (sources.last->boxes_of(grids_->grids[id.grid], id, list, options_.clipping, whole, boxes.of_part))

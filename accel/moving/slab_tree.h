@@ -18,6 +18,7 @@
 #include "accel/slabs.h"
 #include "accel/traverse.h"
 #include "core/grid.h"
+#include "core/memory/large_pages.h"
 #include "core/stats.h"
 
 namespace trapeze {
@@ -68,10 +69,11 @@ class SlabTree {
     PlaneSets sets_;
     size_t key_count_ = 1;            ///< of extents; one for all times where planes are those of space-time
     std::vector<uint8_t> unbounded_;  ///< by grid
-    std::vector<MicropolygonId> micropolygons_;
+    UnsetVector<MicropolygonId> micropolygons_;
     std::vector<uint32_t> leaf_first_;  ///< one more than leaves
-    std::vector<Node> nodes_;  ///< the sides of inner node i are 2 i and 2 i + 1, the root is the last
-    std::vector<PlaneExtents> extents_;
+    std::vector<Node, LargePages<Node>>
+        nodes_;  ///< the sides of inner node i are 2 i and 2 i + 1, the root is the last
+    UnsetVector<PlaneExtents> extents_;
     BuildStats stats_;
 };
 

@@ -118,6 +118,7 @@ class SpatialBuilder {
             result.tree.root = number(*root, {}, result);
         }
         result.leaf_first.push_back(static_cast<uint32_t>(result.references.size()));
+        result.poses = std::move(middle_);
         result.splits = splits_, result.lacked_budget = lacked_budget_;
         result.work = work_.seconds(), result.cut_work = cut_work_.seconds();
         return result;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "accel/builders/sah_topology.h"
+#include "accel/moving/lane_pose.h"
 #include "accel/moving/micropolygon_parts.h"
 #include "core/memory/large_pages.h"
 
@@ -33,6 +34,7 @@ struct SpatialTopology {
     TopTopology tree;                  ///< its leaves are numbered from left to right
     std::vector<uint32_t> leaf_first;  ///< leaf -> its first reference; one more than leaves
     UnsetVector<SahItem> references;   ///< in the order of leaves
+    UnsetVector<LanePose> poses;       ///< of micropolygons at mid-shutter; none without a budget
     uint64_t splits = 0;               ///< nodes that a plane cuts
     bool lacked_budget = false;        ///< some node would have been cut, had there been more
     double work = 0, cut_work = 0;     ///< seconds of all threads: in all, and on planes that cut
