@@ -7,7 +7,7 @@
 namespace trapeze {
 namespace {
 
-using Lanes = float __attribute__((vector_size(16)));
+using Lanes = GridPose::Lanes;
 
 /// Four vertices of a tile's row along one axis, and so the next ones, at a key: as KeyVertices has them.
 Lanes at_key(const float* start, const float* delta) {

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 
+#include "accel/builders/box_sum.h"
 #include "core/grid.h"
 
 namespace trapeze {
@@ -12,7 +13,7 @@ namespace trapeze {
 /// Vertices of one grid at a time. Made once for many grids, since it is large.
 class GridPose {
   public:
-    using Lanes = float __attribute__((vector_size(16)));
+    using Lanes = BoxLanes::Lanes;
 
     /// Takes the vertices of a grid at one of its own keys, in camera space. Returns their largest
     /// coordinate; infinity where one is too large to be bounded, or no number.
