@@ -9,10 +9,6 @@
 namespace trapeze {
 namespace {
 
-Box3f between(const Box3f& a, const Box3f& b, float way) {
-    return {a.min + (b.min - a.min) * way, a.max + (b.max - a.max) * way};
-}
-
 /// Fewer keys: a box at each, and what must be added to both ends of a segment for all boxes within.
 void fewer_keys(std::span<const Box3f> from, std::span<Box3f> to) {
     const size_t step = (from.size() - 1) / (to.size() - 1);
@@ -23,8 +19,8 @@ void fewer_keys(std::span<const Box3f> from, std::span<Box3f> to) {
     for (size_t i = 0; i < from.size(); ++i) {
         const size_t key = i / step;
         if (i % step == 0) continue;
-        const Box3f line = between(from[key * step], from[(key + 1) * step],
-                                   static_cast<float>(i % step) / static_cast<float>(step));
+        const Box3f line = box_between(from[key * step], from[(key + 1) * step],
+                                       static_cast<float>(i % step) / static_cast<float>(step));
         for (int k = 0; k < 3; ++k)
             for (const size_t end : {key, key + 1}) {
                 below[end][k] = std::max(below[end][k], line.min[k] - from[i].min[k]);
@@ -37,25 +33,33 @@ void fewer_keys(std::span<const Box3f> from, std::span<Box3f> to) {
 
 }  // namespace
 
-void keyed_boxes(std::span<const Box3f> from, std::span<Box3f> to) {
-    if (to.size() == 1) {
-        to[0] = Box3f();
-        for (const Box3f& box : from) to[0].extendBy(box);
-    } else if (to.size() == from.size()) {
-        std::ranges::copy(from, to.begin());
-    } else if (to.size() < from.size()) {
-        fewer_keys(from, to);
+Box3f box_between(const Box3f& a, const Box3f& b, float way) {
+    return {a.min + (b.min - a.min) * way, a.max + (b.max - a.max) * way};
+}
+
+void add_at_keys(std::span<const Box3f> from, std::span<BoxSum> to) {
+    const size_t keys = to.size();
+    if (from.size() == keys) {
+        for (size_t key = 0; key < keys; ++key) to[key].add(from[key]);
+    } else if (keys == 1) {
+        for (const Box3f& box : from) to[0].add(box);
+    } else if (keys < from.size()) {
+        std::array<Box3f, kMaxKeyCount> fewer;
+        fewer_keys(from, std::span(fewer).first(keys));
+        for (size_t key = 0; key < keys; ++key) to[key].add(grown_for_rounding(fewer[key]));
     } else {
         // Each key of `from` is one of `to`, as both are 2^m + 1: boxes linear between more keys are no
-        // larger.
-        for (size_t key = 0; key < to.size(); ++key) {
-            const MotionSegment s = segment_at(static_cast<float>(key) / static_cast<float>(to.size() - 1),
-                                               static_cast<int>(from.size()));
-            const auto at = static_cast<size_t>(s.index);
-            to[key] = from.size() == 1 ? from[0] : between(from[at], from[at + 1], s.local);
+        // larger. The last key is the end of the last segment.
+        const size_t segments = std::max(from.size() - 1, size_t{1}), step = (keys - 1) / segments;
+        for (size_t s = 0, key = 0; s < segments; ++s) {
+            const BoxLanes a(from[s]), b(from[std::min(s + 1, from.size() - 1)]);
+            const BoxLanes way(b.low - a.low, b.high - a.high);
+            for (size_t i = 0; i < step + (s + 1 == segments); ++i, ++key) {
+                const float local = static_cast<float>(i) / static_cast<float>(step);
+                to[key].add(BoxLanes(a.low + way.low * local, a.high + way.high * local));
+            }
         }
     }
-    for (Box3f& box : to) box = grown_for_rounding(box);
 }
 
 }  // namespace trapeze

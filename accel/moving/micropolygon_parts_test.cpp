@@ -101,7 +101,9 @@ TEST(KeyBoxes, OfAnyNumberOfKeysHoldTheOthersAtAllTimes) {
             for (int round = 0; round < 20; ++round) {
                 std::vector<Box3f> from(from_count), to(to_count);
                 for (Box3f& box : from) box.extendBy(noise.point(2)), box.extendBy(noise.point(2));
-                keyed_boxes(from, to);
+                std::vector<BoxSum> sums(to_count);
+                add_at_keys(from, sums);
+                for (size_t key = 0; key < to_count; ++key) to[key] = grown_for_rounding(sums[key].box());
                 for (int n = 0; n <= 64; ++n) {
                     const float time = static_cast<float>(n) / 64;
                     const Box3f small = box_at(from, time), large = grown_for_rounding(box_at(to, time));

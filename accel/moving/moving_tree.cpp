@@ -89,25 +89,7 @@ struct MovingTree::LeafBoxes {
     std::array<BoxSum, kMaxKeyCount> of_leaf;
     BoxSum whole;         ///< of all micropolygons at their keys
     LongestSide longest;  ///< of micropolygons
-    KeyBoxes at_keys, of_part;
-
-    /// Takes in boxes at as many keys as there are, or at fewer ones: between these they are linear.
-    void add(std::span<const Box3f> from, size_t keys) {
-        if (from.size() == keys) {
-            for (size_t key = 0; key < keys; ++key) of_leaf[key].add(from[key]);
-            return;
-        }
-        // The last key is the end of the last segment.
-        const size_t segments = std::max(from.size() - 1, size_t{1}), step = (keys - 1) / segments;
-        for (size_t s = 0, key = 0; s < segments; ++s) {
-            const BoxLanes a(from[s]), b(from[std::min(s + 1, from.size() - 1)]);
-            const BoxLanes way(b.low - a.low, b.high - a.high);
-            for (size_t i = 0; i < step + (s + 1 == segments); ++i, ++key) {
-                const float local = static_cast<float>(i) / static_cast<float>(step);
-                of_leaf[key].add(BoxLanes(a.low + way.low * local, a.high + way.high * local));
-            }
-        }
-    }
+    KeyBoxes of_part;
 };
 
 MovingTree::MovingTree(const Grids& grids, const MovingTreeOptions& options)
@@ -254,7 +236,6 @@ double MovingTree::mean_area(size_t node) const {
     return sum;
 }
 
-/// The boxes of what a reference is to, at the keys of the tree.
 std::span<const Box3f> MovingTree::boxes_of(const Sources& sources, size_t r, size_t list,
                                             std::span<const Box3f> whole, LeafBoxes& boxes) {
     const uint32_t reference = sources.references[r];
@@ -272,10 +253,7 @@ std::span<const Box3f> MovingTree::boxes_of(const Sources& sources, size_t r, si
         if (sources.last->boxes_of(grids_->grids[id.grid], id, list, options_.clipping, whole, boxes.of_part))
             there = std::span(boxes.of_part).first(whole.size());
     }
-    const auto keys = static_cast<size_t>(top_.key_count);
-    if (there.size() <= keys) return there;
-    keyed_boxes(there, std::span(boxes.at_keys).first(keys));
-    return std::span(boxes.at_keys).first(keys);
+    return there;
 }
 
 void MovingTree::bound_leaf(const Sources& sources, size_t at, LeafBoxes& boxes) {
@@ -293,7 +271,7 @@ void MovingTree::bound_leaf(const Sources& sources, size_t at, LeafBoxes& boxes)
         sources.boxes.fetch(PartId::index(references[std::min(r + kAhead, last)]));
         const std::span<const Box3f> whole = sources.boxes.keys(index);
         micropolygons_[r] = sources.boxes.id(index);
-        boxes.add(boxes_of(sources, r, list, whole, boxes), keys);
+        add_at_keys(boxes_of(sources, r, list, whole, boxes), std::span(boxes.of_leaf).first(keys));
         for (const Box3f& box : whole) {
             const BoxLanes lanes(box);
             boxes.whole.add(lanes), boxes.longest.add(lanes);

@@ -48,8 +48,8 @@ class MovingTree final : public ListTree {
     LastFrame last_frame(std::vector<uint32_t> times) const;
     /// Bounds all nodes.
     void bound(const Sources& sources);
-    /// The boxes of what reference `r` of a list is to, at the keys of the tree or at fewer ones; `whole`:
-    /// those of its micropolygon, at the keys of its grid.
+    /// The boxes of what reference `r` of a list is to, at any number of keys; `whole`: those of its
+    /// micropolygon, at the keys of its grid.
     std::span<const Box3f> boxes_of(const Sources& sources, size_t r, size_t list,
                                     std::span<const Box3f> whole, LeafBoxes& boxes);
     void bound_leaf(const Sources& sources, size_t node, LeafBoxes& boxes);

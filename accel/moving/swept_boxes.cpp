@@ -10,6 +10,7 @@
 
 #include "accel/builders/box_sum.h"
 #include "accel/builders/grid_pose.h"
+#include "accel/moving/key_boxes.h"
 #include "core/motion_keys.h"
 
 namespace trapeze {
@@ -18,10 +19,6 @@ namespace {
 Box3f infinite_box() {
     const V3f infinity(std::numeric_limits<float>::infinity());
     return {-infinity, infinity};
-}
-
-Box3f box_between(const Box3f& a, const Box3f& b, float way) {
-    return {a.min + (b.min - a.min) * way, a.max + (b.max - a.max) * way};
 }
 
 }  // namespace
