@@ -158,19 +158,25 @@ TEST(CullHidden, VerticesThatAreSeenAlone) {
     }
 }
 
-/// It is on where shaders trace rays, and only there, unless it is asked for.
-TEST(CullHidden, IsOnWhereShadersTrace) {
+/// It is on where shaders trace rays and enough is opaque, and only there, unless it is asked for.
+TEST(CullHidden, IsOnWhereItPays) {
     const WorkFolder folder;
     folder.write("ask.sl", "surface ask() { Ci = 1 - occlusion(P, normalize(N), 4); Oi = 1; }");
-    const auto stats = [&](const std::string& shader) {
+    const auto unshaded = [&](const std::string& shader, const std::string& more = "",
+                              CullHidden cull = CullHidden::Auto) {
         folder.write("a.rib", "Option \"searchpath\" \"string shader\" [\"" + folder.path().string() +
                                   ":&\"] Display \"x\" \"exr\" \"rgba\" Format 64 48 1 WorldBegin "
                                   "ShadingRate .05 Attribute \"visibility\" \"int diffuse\" 1 Surface \"" +
-                                  shader + "\" " + kBall + "WorldEnd\n");
-        return render_scene((folder / "a.rib").string(), {})[0].stats;
+                                  shader + "\" " + kBall + more + "WorldEnd\n");
+        return render_scene((folder / "a.rib").string(), culling(cull))[0].stats.unshaded_grids;
     };
-    EXPECT_GT(stats("ask").unshaded_grids, 0u);
-    EXPECT_EQ(stats("constant").unshaded_grids, 0u);
+    EXPECT_GT(unshaded("ask"), 0u);
+    EXPECT_EQ(unshaded("constant"), 0u);
+    // Finely diced glass hides nothing, and the one opaque ball too little.
+    const std::string glass = "Surface \"glassy\" ShadingRate .005 " + kBall;
+    folder.write("glassy.sl", "surface glassy() { Ci = .1 * occlusion(P, normalize(N), 4); Oi = .1; }");
+    EXPECT_EQ(unshaded("ask", glass), 0u);
+    EXPECT_GT(unshaded("ask", glass, CullHidden::On), 0u);
 }
 
 }  // namespace

@@ -49,6 +49,22 @@ Grids plain_grids(const RenderContext& context, const std::vector<uint32_t>& can
     return collect_grids(makers);
 }
 
+/// Whether as much hides what is behind it as pays for finding out: half-transparent hair hides nothing.
+bool enough_hides(const std::vector<uint32_t>& candidates, const Tessellation& tessellation,
+                  const Shading& shading) {
+    constexpr int64_t kOneOf = 4;    // micropolygons
+    std::map<uint32_t, bool> hides;  // by primitive
+    int64_t all = 0, hiding = 0;
+    for (const uint32_t candidate : candidates) {
+        const SubpatchInfo& subpatch = tessellation.subpatches()[candidate];
+        const auto [known, is_new] = hides.try_emplace(subpatch.primitive);
+        if (is_new) known->second = shading.hides_for_sure(subpatch.primitive);
+        const int micropolygons = subpatch.shape.micropolygon_count();
+        all += micropolygons, hiding += known->second ? micropolygons : 0;
+    }
+    return hiding * kOneOf >= all;
+}
+
 /// What a thread needs to look at tiles.
 struct TileLooker {
     SampleTile samples;
@@ -125,7 +141,7 @@ std::optional<SeenMicropolygons> seen_micropolygons(const RenderContext& context
 
 void leave_out_hidden(const RenderContext& context, Region& region, const Tessellation& tessellation,
                       const Shading& shading, const Sampler& sampler, const SamplePattern& pattern,
-                      const LayerLimits& limits, FrameStats& stats) {
+                      const LayerLimits& limits, bool always, FrameStats& stats) {
     std::vector<uint32_t> candidates;
     std::map<uint32_t, VertexSet> wanted;  // by subpatch
     for (const uint32_t subpatch : region.subpatches)
@@ -133,6 +149,7 @@ void leave_out_hidden(const RenderContext& context, Region& region, const Tessel
             candidates.push_back(subpatch);
         else
             wanted[subpatch].set();
+    if (!always && !enough_hides(candidates, tessellation, shading)) return;
     const Grids grids = plain_grids(context, candidates, tessellation, shading);
     if (context.is_cancelled() || grids.grids.empty()) return;
     const std::unique_ptr<Visibility> visibility = sampler.prepare(context, grids);

@@ -17,7 +17,7 @@ namespace trapeze {
 
 /// When grids that no sample sees are left out before they are shaded.
 enum class CullHidden : uint8_t {
-    Auto,  ///< where shaders trace rays: then they take longer than to find out
+    Auto,  ///< where shaders trace rays, which take longer than to find out, and enough is opaque
     On,
     Off,
 };
@@ -26,10 +26,10 @@ enum class CullHidden : uint8_t {
 /// sees, and those that must be shaded in any case (Shading::may_stay_unshaded()). Of those that are seen in
 /// part, vertices that no sample sees are not wanted, where shaders allow it (Shading::may_ask_for_some()).
 /// Takes the samples through the region once more, but composites nothing; where their layers take more than
-/// the limits allow, nothing is left out. The picture is the same bits. Adds to the stats' counts of what is
-/// left out.
+/// the limits allow, nothing is left out; nor where `always` is false and so little hides what is behind that
+/// to find out takes longer. The picture is the same bits. Adds to the stats' counts of what is left out.
 void leave_out_hidden(const RenderContext& context, Region& region, const Tessellation& tessellation,
                       const Shading& shading, const Sampler& sampler, const SamplePattern& pattern,
-                      const LayerLimits& limits, FrameStats& stats);
+                      const LayerLimits& limits, bool always, FrameStats& stats);
 
 }  // namespace trapeze

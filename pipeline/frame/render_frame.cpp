@@ -31,9 +31,9 @@ struct FrameSetup {
     Shading& shading;
     const Sampler& sampler;
     const SamplePattern& pattern;
-    size_t memory_budget;  ///< bytes, of a region's grids and tree
-    bool leave_gamma;      ///< to what comes after the film
-    bool culls_hidden;     ///< before shading
+    size_t memory_budget;     ///< bytes, of a region's grids and tree
+    bool leave_gamma;         ///< to what comes after the film
+    CullHidden culls_hidden;  ///< before shading; not Auto where no shader traces rays
     int regions_at_least;
     FilmKeeper* keeper;    ///< null: nobody keeps
     FilmWatcher* watcher;  ///< null: nobody watches
@@ -79,11 +79,12 @@ std::vector<Region> regions_of(const FrameSetup& frame, const Film& film) {
 
 /// Takes out of a region what none of its samples sees, if that is wanted.
 void cull_region(const FrameSetup& frame, Region& region, FrameRecorder& recorder) {
-    if (!frame.culls_hidden) return;
+    if (frame.culls_hidden == CullHidden::Off) return;
     recorder.begin_cull();
     recorder.timed(&StageSeconds::cull, [&] {
         leave_out_hidden(frame.context, region, frame.tessellation, frame.shading, frame.sampler,
-                         frame.pattern, layer_limits(frame), recorder.stats());
+                         frame.pattern, layer_limits(frame), frame.culls_hidden == CullHidden::On,
+                         recorder.stats());
     });
 }
 
@@ -196,8 +197,8 @@ std::optional<FrameResult> render_frame(const RenderContext& asked, const Render
 
     // Region by region: diced, shaded, built, sampled.
     const std::unique_ptr<SamplePattern> pattern = sampler->make_pattern(context);
-    const bool culls_hidden =
-        settings.cull_hidden == CullHidden::On || (settings.cull_hidden == CullHidden::Auto && rays);
+    const CullHidden culls_hidden =
+        settings.cull_hidden == CullHidden::Auto && !rays ? CullHidden::Off : settings.cull_hidden;
     FilmKeeper* const keeper = keeper_of(settings, shading);
     const int least_regions = std::max(settings.regions_at_least, keeper ? keeper->regions_at_least() : 1);
     const FrameSetup frame{asked,
