@@ -73,6 +73,20 @@ TEST(AreaLights, OfThePathTracerThatMoveGiveTheirMeanOverTheShutter) {
         "float expected = 1;", 0.002, 0.03);
 }
 
+/// Of a power that does not grow with the light, each moment's light has its own area.
+TEST(AreaLights, ThatGrowHaveTheirAreaAtEachMoment) {
+    Case c =
+        lit_by(ris("PxrRectLight", "Translate 0 0 3 MotionBegin [0 1] Scale 1 1 1 Scale 3 3 1 MotionEnd ",
+                   "\"int areaNormalize\" [1] "));
+    c.options = "Shutter 0 1 ";
+    c.asker += "Attribute \"trace\" \"int samplemotion\" [1] ";
+    expect_lit(
+        c.render(asks("float expected = 0, i; for (i = 0; i < 64; i += 1) { float h = .5 + (i + .5) / 64;"
+                      "  expected += polygon(P, point(-h, -h, 3), point(h, -h, 3), point(h, h, 3),"
+                      "    point(-h, h, 3)) / (4 * h * h) / 64; }")),
+        0.003, 0.05);
+}
+
 /// With a camera that moves, and an eye that does not look at its motion: the light stands still in the
 /// world.
 TEST(AreaLights, StandStillWhereTheCameraMoves) {

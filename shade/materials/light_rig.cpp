@@ -21,7 +21,7 @@ namespace {
 constexpr size_t kL = 0, kDirection = 3, kCl = 6, kLit = 9, kPlanes = 10;
 
 /// Planes of samples_, by number: P, N and radiance have three planes each.
-constexpr size_t kSampleP = 0, kSampleN = 3, kRadiance = 6, kSolidAngle = 9, kSamplePlanes = 10;
+constexpr size_t kSampleP = 0, kSampleN = 3, kRadiance = 6, kSolidAngle = 9, kArea = 10, kSamplePlanes = 11;
 
 /// Tells the seeds of area lights from those of other random numbers at a vertex.
 constexpr uint32_t kAreaLights = 0x6c616d70, kLightTimes = 0x74696d65;
@@ -182,6 +182,7 @@ std::vector<float> LightRig::sample(const Turn& turn, const Lamp& lamp, const vm
         const LightSample made = sampler->sample(point, normal, sequence[turn.sample]);
         put(kSampleP, lane, made.P), put(kSampleN, lane, made.N), put(kRadiance, lane, made.radiance);
         samples_[kSolidAngle * lanes_ + lane] = std::isfinite(made.solid_angle) ? made.solid_angle : 0;
+        samples_[kArea * lanes_ + lane] = sampler->area();
     };
     if (!surroundings_->batch)
         for (size_t lane = 0; lane < lanes_; ++lane)
@@ -211,9 +212,14 @@ void LightRig::set_sample(vm::Registers& registers, const Lamp& lamp) const {
             copy_operand(planes(kSolidAngle), 1, lanes_, registers.operand(parameter.id));
         if (parameter.name == "__radiance" && parameter.type == rsl::Type{rsl::Base::Color, 0})
             copy_operand(planes(kRadiance), 3, lanes_, registers.operand(parameter.id));
-        const LightSampler* const at_open = lamp.sampler_at(0);
-        const float area = at_open ? at_open->area() : 0;
-        if (parameter.name == "__area" && is_number) registers.set_uniform(parameter.id, &area);
+        if (parameter.name != "__area" || !is_number) continue;
+        if (registers.operand(parameter.id).lane_mask) {
+            copy_operand(planes(kArea), 1, lanes_, registers.operand(parameter.id));
+        } else {  // one for all times: that of shutter open
+            const LightSampler* const at_open = lamp.sampler_at(0);
+            const float area = at_open ? at_open->area() : 0;
+            registers.set_uniform(parameter.id, &area);
+        }
     }
 }
 

@@ -16,9 +16,9 @@ light rislight(
     color shadowcolor = 0;
     varying float __solidangle = 0;
     varying color __radiance = 1;
-    float __area = 1;)
+    varying float __area = 1;)
 {
-    uniform float power = intensity;
+    varying float power = intensity;
     varying float arriving = __solidangle / PI;
 
     if (normalized == 1)
