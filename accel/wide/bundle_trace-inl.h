@@ -71,14 +71,15 @@ class BundleTrace {
     }
 
   private:
-    /// Fetches the lines of the first and the last byte: enough for what lies within two lines.
-    static void prefetch(const void* at, size_t bytes) {
+    /// Fetches the lines of the first and the last byte: enough for what lies within two lines. What does
+    /// nothing but fetch is inlined: GCC takes calls of it for calls without effect, and leaves them out.
+    HWY_INLINE static void prefetch(const void* at, size_t bytes) {
         __builtin_prefetch(at);
         __builtin_prefetch(static_cast<const char*>(at) + bytes - 1);
     }
 
     /// Fetches records and bounds of candidates that come some places after this one.
-    void prefetch_grids(size_t candidate) const {
+    HWY_INLINE void prefetch_grids(size_t candidate) const {
         const auto& all = t_.scratch.candidates;
         if (candidate + kPrefetchAhead < all.size())
             prefetch(&t_.tree.grid(candidate_of(all[candidate + kPrefetchAhead]).grid), sizeof(WideGrid));
