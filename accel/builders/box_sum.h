@@ -47,6 +47,7 @@ class BoxSum {
     void cut_below(int axis, float at) { low_[axis] = at < low_[axis] ? low_[axis] : at; }
     void cut_above(int axis, float at) { high_[axis + 1] = high_[axis + 1] < at ? high_[axis + 1] : at; }
 
+    BoxLanes lanes() const { return {low_, high_}; }
     Box3f box() const { return {{low_[0], low_[1], low_[2]}, {high_[1], high_[2], high_[3]}}; }
 
   private:

@@ -43,6 +43,9 @@ void add_at_keys(std::span<const Box3f> from, std::span<BoxSum> to) {
         for (size_t key = 0; key < keys; ++key) to[key].add(from[key]);
     } else if (keys == 1) {
         for (const Box3f& box : from) to[0].add(box);
+    } else if (from.size() == 1) {
+        const BoxLanes box(from[0]);
+        for (BoxSum& sum : to) sum.add(box);
     } else if (keys < from.size()) {
         std::array<Box3f, kMaxKeyCount> fewer;
         fewer_keys(from, std::span(fewer).first(keys));
@@ -50,9 +53,9 @@ void add_at_keys(std::span<const Box3f> from, std::span<BoxSum> to) {
     } else {
         // Each key of `from` is one of `to`, as both are 2^m + 1: boxes linear between more keys are no
         // larger. The last key is the end of the last segment.
-        const size_t segments = std::max(from.size() - 1, size_t{1}), step = (keys - 1) / segments;
+        const size_t segments = from.size() - 1, step = (keys - 1) / segments;
         for (size_t s = 0, key = 0; s < segments; ++s) {
-            const BoxLanes a(from[s]), b(from[std::min(s + 1, from.size() - 1)]);
+            const BoxLanes a(from[s]), b(from[s + 1]);
             const BoxLanes way(b.low - a.low, b.high - a.high);
             for (size_t i = 0; i < step + (s + 1 == segments); ++i, ++key) {
                 const float local = static_cast<float>(i) / static_cast<float>(step);

@@ -79,9 +79,7 @@ class LinearBuilder {
     TopLink build(Subtree& tree, size_t first, size_t last) const {
         if (last - first < leaf_below_) {
             tree.leaf_first.push_back(static_cast<uint32_t>(first));
-            for (size_t i = first; i < last; ++i) items_[i] = order_[i].item;
-            std::sort(items_.begin() + static_cast<std::ptrdiff_t>(first),
-                      items_.begin() + static_cast<std::ptrdiff_t>(last));
+            set_items(first, last);
             return TopLink::leaf(static_cast<uint32_t>(tree.leaf_first.size() - 1));
         }
         const size_t index = tree.inner.size(), middle = divide(first, last);
@@ -91,16 +89,26 @@ class LinearBuilder {
         return TopLink::inner(static_cast<uint32_t>(index));
     }
 
+    /// The items of a leaf, in their own order: few enough to count for each those that come before it, which
+    /// has no branches to foresee.
+    void set_items(size_t first, size_t last) const {
+        for (size_t i = first; i < last; ++i) {
+            size_t place = first;
+            for (size_t other = first; other < last; ++other) place += order_[other].item < order_[i].item;
+            items_[place] = order_[i].item;
+        }
+    }
+
     /// The first item that has the highest bit in which the range's codes differ.
     size_t divide(size_t first, size_t last) const {
         const uint64_t differing = order_[first].code ^ order_[last - 1].code;
         if (differing == 0) return first + (last - first) / 2;
         const uint64_t bit = std::bit_floor(differing);
-        const auto begin = order_.begin() + static_cast<std::ptrdiff_t>(first);
-        const auto end = order_.begin() + static_cast<std::ptrdiff_t>(last);
-        const auto middle =
-            std::partition_point(begin, end, [bit](const CodedItem& o) { return !(o.code & bit); });
-        return static_cast<size_t>(middle - order_.begin());
+        // The first has it not, and the last has: halved without branches, which nobody could foresee.
+        size_t before = first;
+        for (size_t count = last - 1 - first; count > 1; count -= count / 2)
+            before += order_[before + count / 2].code & bit ? 0 : count / 2;
+        return before + 1;
     }
 
     /// Inner nodes of the top come first, then those of the subtrees in turn. Links within a subtree count
@@ -141,13 +149,15 @@ class LinearBuilder {
 
 }  // namespace
 
-LinearTopology build_linear_topology(std::span<const V3f> centroids, const Box3f& box, size_t leaf_below) {
+LinearTopology build_linear_topology(std::span<const V3f> centroids, const Box3f& box, size_t leaf_below,
+                                     std::span<const uint32_t> names) {
     LinearTopology result;
     if (!centroids.empty()) {
         UnsetVector<CodedItem> order(centroids.size());
         tbb::parallel_for(tbb::blocked_range<size_t>(0, centroids.size()), [&](const auto& range) {
             for (size_t i = range.begin(); i < range.end(); ++i)
-                order[i] = {morton_code(centroids[i], box), static_cast<uint32_t>(i)};
+                order[i] = {morton_code(centroids[i], box),
+                            names.empty() ? static_cast<uint32_t>(i) : names[i]};
         });
         sort_by_code(order, 3 * kMortonBits);
         result.items.resize(centroids.size());

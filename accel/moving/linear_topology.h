@@ -11,7 +11,7 @@
 
 namespace trapeze {
 
-/// A topology over numbers of items: the items themselves stay where they are.
+/// A topology over names of items: the items themselves stay where they are.
 struct LinearTopology {
     TopTopology tree;                  ///< its leaves are numbered from left to right
     std::vector<uint32_t> leaf_first;  ///< leaf -> its first item; one more than leaves
@@ -19,8 +19,9 @@ struct LinearTopology {
 };
 
 /// `centroids`: of items at mid-shutter, all finite, in `box`. Codes have 18 bits an axis of it; what has one
-/// code is halved in the order of items. Leaves have fewer items than `leaf_below`, at least 2.
-/// Deterministic, whatever the number of threads.
-LinearTopology build_linear_topology(std::span<const V3f> centroids, const Box3f& box, size_t leaf_below);
+/// code is halved in the order of items. Leaves have fewer items than `leaf_below`, at least 2. `names`: of
+/// items, in rising order; without them their numbers. Deterministic, whatever the number of threads.
+LinearTopology build_linear_topology(std::span<const V3f> centroids, const Box3f& box, size_t leaf_below,
+                                     std::span<const uint32_t> names = {});
 
 }  // namespace trapeze

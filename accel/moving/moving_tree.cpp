@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include "accel/builders/box_sum.h"
 #include "accel/builders/build_clock.h"
@@ -38,6 +39,17 @@ Box3f moved_with(const Box3f& box, const Box3f& whole, const Box3f& then) {
     return moved;
 }
 
+/// Half the area of a box.
+double area_in_lanes(const KeyBox& box) {
+    using Floats = BoxLanes::Lanes;
+    using Doubles = double __attribute__((vector_size(32)));
+    Floats low, high;
+    std::memcpy(&low, box.low, sizeof low), std::memcpy(&high, box.high, sizeof high);
+    const Doubles side = __builtin_convertvector(high, Doubles) - __builtin_convertvector(low, Doubles);
+    const Doubles faces = side * __builtin_shufflevector(side, side, 1, 2, 0, 3);
+    return faces[0] + faces[1] + faces[2];
+}
+
 /// Boxes at all keys of its grid of the part of a micropolygon that is in `part` when it is as `then`;
 /// `whole`: those of all of it.
 void boxes_of_part(const Grid& grid, const MicropolygonId& id, const Box3f& part, const QuadPose& then,
@@ -61,15 +73,40 @@ void boxes_of_part(const Grid& grid, const MicropolygonId& id, const Box3f& part
     }
 }
 
+/// In lanes, and so written at once: it is read in lanes right away.
+KeyBox grown(const BoxSum& sum, float by) {
+    using Floats = BoxLanes::Lanes;
+    const BoxLanes box = sum.lanes();
+    const Floats fourth = {-1, 1, 0, 0}, pad = {by, by, by, 0};  // a fourth slab that holds all
+    const Floats low = __builtin_shufflevector(box.low, fourth, 0, 1, 2, 4) - pad;
+    const Floats high = __builtin_shufflevector(box.high, fourth, 1, 2, 3, 5) + pad;
+    KeyBox grown;
+    std::memcpy(grown.low, &low, sizeof low), std::memcpy(grown.high, &high, sizeof high);
+    return grown;
+}
+
 }  // namespace
 
 /// What leaves are made of: a list of references, each to a micropolygon or to a part of one.
 struct MovingTree::Sources {
     const SweptBoxes& boxes;
-    std::span<const uint32_t> references;  ///< PartIds of places in `boxes`, list after list
+    std::span<const uint32_t> references;  ///< PartIds of micropolygons in `boxes`, list after list
     std::span<const SahItem> parts;        ///< as the references, where some are to parts
     std::span<const LanePose> poses;       ///< of micropolygons at mid-shutter, where there are parts
     const LastFrame* last = nullptr;       ///< else it says which are, and of what
+    bool are_places = false;               ///< the references: of whole micropolygons, SweptBoxes::place()
+
+    size_t place(size_t r) const {
+        return are_places ? references[r] : boxes.place(PartId::index(references[r]));
+    }
+    /// Micropolygons next to each other in a tree are anywhere in memory: asks for those of references to
+    /// come.
+    [[gnu::always_inline]] void fetch_after(size_t r) const {
+        constexpr size_t kAhead = 24;
+        const size_t end = references.size() - 1;
+        if (!are_places) boxes.fetch_place(PartId::index(references[std::min(r + 2 * kAhead, end)]));
+        boxes.fetch(place(std::min(r + kAhead, end)));
+    }
 };
 
 /// The frame before one that a tree is refitted to.
@@ -87,7 +124,7 @@ struct MovingTree::LastFrame {
 /// What bounding a leaf works on; it is large, and made once for many leaves.
 struct MovingTree::LeafBoxes {
     std::array<BoxSum, kMaxKeyCount> of_leaf;
-    BoxSum whole;         ///< of all micropolygons at their keys
+    BoxSum whole;         ///< of all that is in the leaf: of parts the whole
     LongestSide longest;  ///< of micropolygons
     KeyBoxes of_part;
 };
@@ -106,13 +143,13 @@ void MovingTree::build() {
     top_.oriented = false;
     if (linear) {
         phases.prepare = clock.end_phase();
-        LinearTopology topology =
-            build_linear_topology(middles.at, middles.box, static_cast<size_t>(options_.leaf));
+        LinearTopology topology = build_linear_topology(middles.at, middles.box,
+                                                        static_cast<size_t>(options_.leaf), boxes.places());
         middles = {};
         phases.divide = clock.end_phase();
         leaf_first_ = std::move(topology.leaf_first);
         link_nodes(topology.tree, leaf_count(), top_.nodes);
-        bound({boxes, topology.items, {}, {}});
+        bound({boxes, topology.items, {}, {}, nullptr, !boxes.places().empty()});
     } else {
         build_spatial(boxes, clock, phases);
     }
@@ -228,10 +265,7 @@ double MovingTree::mean_area(size_t node) const {
         const KeyBox& box = top_.boxes[node * keys + key];
         // Between keys boxes are interpolated: those at both ends count for half a segment.
         const double part = keys > 2 && (key == 0 || key + 1 == keys) ? .5 : 1;
-        double side[3];
-        for (int k = 0; k < 3; ++k)
-            side[k] = static_cast<double>(box.high[k]) - static_cast<double>(box.low[k]);
-        sum += part * (side[0] * side[1] + side[1] * side[2] + side[2] * side[0]);
+        sum += part * area_in_lanes(box);
     }
     return sum;
 }
@@ -241,10 +275,11 @@ std::span<const Box3f> MovingTree::boxes_of(const Sources& sources, size_t r, si
     const uint32_t reference = sources.references[r];
     const MicropolygonId& id = micropolygons_[r];
     std::span<const Box3f> there = whole;
+    const bool may_be_part = !sources.are_places;
     if (!std::isfinite(whole[0].min.x)) {  // its rounding makes any box infinite
         boxes.of_part[0] = Box3f(V3f(0), V3f(0));
         there = std::span(boxes.of_part).first(1);
-    } else if (PartId::is_part(reference)) {
+    } else if (may_be_part && PartId::is_part(reference)) {
         const Grid& grid = grids_->grids[id.grid];
         boxes_of_part(grid, id, sources.parts[r].box, sources.poses[PartId::index(reference)].corners(),
                       options_.clipping, whole, boxes.of_part);
@@ -257,33 +292,29 @@ std::span<const Box3f> MovingTree::boxes_of(const Sources& sources, size_t r, si
 }
 
 void MovingTree::bound_leaf(const Sources& sources, size_t at, LeafBoxes& boxes) {
-    // Micropolygons next to each other in a tree are anywhere in memory: those further on are asked for.
-    constexpr size_t kAhead = 24;
-    const std::span<const uint32_t> references = sources.references;
     const auto keys = static_cast<size_t>(top_.key_count);
-    std::fill_n(boxes.of_leaf.begin(), keys, BoxSum());
+    const std::span<BoxSum> of_leaf = std::span(boxes.of_leaf).first(keys);
+    std::ranges::fill(of_leaf, BoxSum());
     boxes.whole = {}, boxes.longest = {};
     TopLevel::Node& node = top_.nodes[at];
     const uint32_t list = node.link.index();
     for (size_t r = leaf_first_[list]; r < leaf_first_[list + 1]; ++r) {
-        const size_t last = references.size() - 1, index = PartId::index(references[r]);
-        sources.boxes.fetch_place(PartId::index(references[std::min(r + 2 * kAhead, last)]));
-        sources.boxes.fetch(PartId::index(references[std::min(r + kAhead, last)]));
-        const std::span<const Box3f> whole = sources.boxes.keys(index);
-        micropolygons_[r] = sources.boxes.id(index);
-        add_at_keys(boxes_of(sources, r, list, whole, boxes), std::span(boxes.of_leaf).first(keys));
-        for (const Box3f& box : whole) {
-            const BoxLanes lanes(box);
-            boxes.whole.add(lanes), boxes.longest.add(lanes);
-        }
+        sources.fetch_after(r);
+        const size_t place = sources.place(r);
+        micropolygons_[r] = sources.boxes.id_at(place);
+        const std::span<const Box3f> whole = sources.boxes.keys_at(place);
+        const std::span<const Box3f> there = boxes_of(sources, r, list, whole, boxes);
+        add_at_keys(there, of_leaf);
+        for (const Box3f& box : whole) boxes.longest.add(BoxLanes(box));
+        if (there.data() != whole.data() || whole.size() > keys)
+            for (const Box3f& box : whole) boxes.whole.add(box);
     }
+    for (const BoxSum& sum : of_leaf) boxes.whole.add(sum);
     node.absolute_max = boxes.whole.largest_coordinate(), node.quad_extent = boxes.longest.get();
     for (size_t key = 0; key < keys; ++key) {
         // By more than each of them would be, and by as much again for those between keys.
-        const Box3f box = boxes.of_leaf[key].box();
-        const float pad = 2 * kBoundRounding * boxes.of_leaf[key].largest_coordinate();
-        KeyBox& to = top_.boxes[at * keys + key] = KeyBox();
-        for (int k = 0; k < 3; ++k) to.low[k] = box.min[k] - pad, to.high[k] = box.max[k] + pad;
+        const float pad = 2 * kBoundRounding * of_leaf[key].largest_coordinate();
+        top_.boxes[at * keys + key] = grown(of_leaf[key], pad);
     }
 }
 

@@ -68,6 +68,30 @@ TEST(LinearTopology, DividesByTheHighestBit) {
     EXPECT_EQ(high.index(), 4u);
 }
 
+/// Items of a leaf are in their own order, by whatever name.
+TEST(LinearTopology, HasItemsByTheirNames) {
+    Noise noise;
+    std::vector<V3f> points;
+    std::vector<uint32_t> names;
+    for (uint32_t i = 0; i < 1000; ++i) {
+        points.push_back(noise.point(1));
+        names.push_back(3 * i + 100);
+    }
+    const Box3f box(V3f(-1), V3f(1));
+    for (const size_t leaf_below : {size_t{2}, size_t{8}, size_t{32}}) {
+        const LinearTopology by_number = build_linear_topology(points, box, leaf_below),
+                             by_name = build_linear_topology(points, box, leaf_below, names);
+        EXPECT_EQ(by_name.leaf_first, by_number.leaf_first);
+        for (size_t i = 0; i < points.size(); ++i) EXPECT_EQ(by_name.items[i], 3 * by_number.items[i] + 100);
+        for (size_t leaf = 0; leaf + 1 < by_name.leaf_first.size(); ++leaf) {
+            const auto first = by_name.items.begin() + by_name.leaf_first[leaf],
+                       last = by_name.items.begin() + by_name.leaf_first[leaf + 1];
+            EXPECT_LT(static_cast<size_t>(last - first), leaf_below);
+            EXPECT_TRUE(std::is_sorted(first, last));
+        }
+    }
+}
+
 /// The negative control: boxes of clipped polygons that move as whole boxes do lose hits [Gruenschloss11 fig.
 /// 3].
 TEST(MovingTree, LosesHitsWhenClippedNaively) {

@@ -16,7 +16,8 @@ struct MiddlePoints {
     Box3f box;
 };
 
-/// Micropolygons count in the order of grids and then of rows. At most 2^30 boxes.
+/// Micropolygons count in the order of grids and then of rows. At most 2^32 places, of which those of two
+/// keys have eight each.
 class SweptBoxes {
   public:
     /// Of those that can be bounded, by `summaries` of all grids; others are left out. Boxes are grown so
@@ -28,32 +29,38 @@ class SweptBoxes {
     explicit SweptBoxes(const Grids& grids, MiddlePoints* middles = nullptr);
 
     size_t size() const { return size_; }
-    MicropolygonId id(size_t index) const {
-        const Head& head = head_of(index);
-        return {head.grid, head.u, head.v};
-    }
+    MicropolygonId id(size_t index) const { return id_at(place(index)); }
     /// Of a SweptBoxes of all.
     size_t index_of(const MicropolygonId& id, const GridShape& shape) const {
         return first_of_grid_[id.grid] + id.v * static_cast<size_t>(shape.nu) + id.u;
     }
     /// Along the axes of space.
-    std::span<const Box3f> keys(size_t index) const {
-        const Head& head = head_of(index);
-        return {boxes_after(head), head.key_count};
-    }
+    std::span<const Box3f> keys(size_t index) const { return keys_at(place(index)); }
     /// Linear between the keys on both sides; times are those of the shutter, in [0, 1].
     Box3f at(size_t index, float time01) const;
     /// Of the whole of its way.
     Box3f swept(size_t index) const;
 
-    /// Asks memory for what id() and keys() of a micropolygon read; before that, for what fetch() reads.
-    void fetch_place(size_t index) const {
-        if (same_keys_ == 0) __builtin_prefetch(&first_[index]);
+    /// Where a micropolygon's boxes are; it grows with the index. Who visits micropolygons in another order
+    /// looks places up before, or keeps them instead of indices, and asks memory for each before it is read.
+    size_t place(size_t index) const {
+        return same_keys_ > 0 ? index * record_size(same_keys_) : first_[index];
     }
-    void fetch(size_t index) const {
-        const std::byte* const record = records_.data() + place(index) * sizeof(Head);
-        __builtin_prefetch(record);
-        __builtin_prefetch(record + sizeof(Head) + 2 * sizeof(Box3f) - 1);  // of two keys the last byte
+    /// Of all, by index, where grids differ in their number of keys; else none, for a product finds them.
+    std::span<const uint32_t> places() const { return first_; }
+    MicropolygonId id_at(size_t place) const {
+        const Head& head = head_at(place);
+        return {head.grid, head.u, head.v};
+    }
+    std::span<const Box3f> keys_at(size_t place) const {
+        const Head& head = head_at(place);
+        return {boxes_after(head), head.key_count};
+    }
+    [[gnu::always_inline]] void fetch(size_t place) const {
+        __builtin_prefetch(records_.data() + place * sizeof(Head));  // of two keys all
+    }
+    [[gnu::always_inline]] void fetch_place(size_t index) const {
+        if (same_keys_ == 0) __builtin_prefetch(&first_[index]);
     }
 
     size_t bytes() const {
@@ -70,7 +77,8 @@ class SweptBoxes {
         uint16_t key_count;
     };
     static_assert(sizeof(Box3f) == 3 * sizeof(Head), "places count heads");
-    static size_t record_size(size_t key_count) { return 1 + 3 * key_count; }  ///< heads
+    /// In heads: a micropolygon of two keys is in one line of a cache, of one key in half of one.
+    static size_t record_size(size_t key_count) { return (1 + 3 * key_count + 3) / 4 * 4; }
 
     /// Finds places for micropolygons of those grids that `counts` says.
     template <class Counts>
@@ -81,11 +89,8 @@ class SweptBoxes {
     /// these.
     Box3f set_boxes(size_t grid, const Grid& of, V3f* middles);
 
-    size_t place(size_t index) const {
-        return same_keys_ > 0 ? index * record_size(same_keys_) : first_[index];
-    }
-    const Head& head_of(size_t index) const {
-        return *reinterpret_cast<const Head*>(records_.data() + place(index) * sizeof(Head));
+    const Head& head_at(size_t place) const {
+        return *reinterpret_cast<const Head*>(records_.data() + place * sizeof(Head));
     }
     static const Box3f* boxes_after(const Head& head) { return reinterpret_cast<const Box3f*>(&head + 1); }
     /// The boxes of the first micropolygon of a grid; those of the next one begin record_size() heads later.

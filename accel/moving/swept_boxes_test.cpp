@@ -74,6 +74,27 @@ TEST(SweptBoxes, AtKeysAreNoLargerThanTheirMicropolygons) {
     }
 }
 
+/// Where grids differ in keys places are kept, else a product finds them: the same micropolygons by either.
+TEST(SweptBoxes, ArePlacedInTheOrderOfTheirNumbers) {
+    for (const auto& keys : {std::initializer_list<int>{2, 1, 17, 1, 3}, {1, 1}, {2, 2}, {5, 5}}) {
+        const GridMaker maker = swinging_sheets(keys, false);
+        const SweptBoxes boxes(maker.grids());
+        const bool differ = *keys.begin() != *(keys.end() - 1);
+        EXPECT_EQ(boxes.places().size(), differ ? boxes.size() : 0);
+        for (size_t i = 0; i < boxes.size(); ++i) {
+            const size_t place = boxes.place(i);
+            if (differ) {
+                EXPECT_EQ(place, boxes.places()[i]);
+            }
+            if (i > 0) {
+                EXPECT_GT(place, boxes.place(i - 1));
+            }
+            EXPECT_EQ(boxes.id_at(place).packed(), boxes.id(i).packed());
+            EXPECT_EQ(boxes.keys_at(place).data(), boxes.keys(i).data());
+        }
+    }
+}
+
 TEST(SweptBoxes, OfWhatCannotBeBounded) {
     const GridMaker maker = swinging_sheets({2, 1}, true);
     const SweptBoxes bounded(maker.grids(), summaries_along_axes(maker.grids())), all(maker.grids());
