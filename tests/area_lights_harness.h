@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <string>
+#include <utility>
 
 #include "tests/rays/rays_harness.h"
 
@@ -22,17 +25,31 @@ inline std::string ris(const std::string& light, const std::string& place, const
            std::to_string(samples) + "] " + parameters + " AttributeEnd ";
 }
 
-/// The mean of what was found is that of what was expected within `of_mean`; a point's within `of_one`, which
-/// is some five deviations of independent samples, or less.
+/// The mean of what was found is that of what was expected within `of_mean`, over the picture; a point's
+/// within `of_one`, which is some five deviations of independent samples, or less; and so the mean of a block
+/// of 64 points within an eighth of that: what is too bright here and too dark there does not cancel.
 inline void expect_lit(const Image& image, double of_mean, double of_one) {
-    double found = 0, expected = 0;
+    constexpr int kBlock = 8;
+    struct Sums {
+        double found = 0, expected = 0;
+        void add(const Pixel& p) {
+            found += static_cast<double>(p.red), expected += static_cast<double>(p.green);
+        }
+    };
+    std::map<std::pair<int, int>, Sums> blocks;
+    Sums all;
+    int i = 0;
     for (const Pixel& p : pixels(image)) {
+        const int x = i % image.width, y = i++ / image.width;
         if (p.alpha == 0) continue;
-        found += static_cast<double>(p.red), expected += static_cast<double>(p.green);
+        all.add(p), blocks[{x / kBlock, y / kBlock}].add(p);
         ASSERT_NEAR(p.red, p.green, of_one * static_cast<double>(p.green) + 1e-6);
     }
-    EXPECT_GT(expected, 0);
-    EXPECT_NEAR(found, expected, of_mean * expected);
+    EXPECT_GT(all.expected, 0);
+    EXPECT_NEAR(all.found, all.expected, of_mean * all.expected);
+    for (const auto& [at, sums] : blocks)
+        EXPECT_NEAR(sums.found, sums.expected, std::max(of_mean, of_one / kBlock) * sums.expected + 1e-6)
+            << "block " << at.first << ' ' << at.second;
 }
 
 /// Lambert's formula: half the sum of the sides' angles, each by the cosine between N and the plane through P

@@ -127,28 +127,33 @@ TEST(AreaLights, ParticlesAreBalls) {
 /// between its way and the light's; the ribbon that the camera sees is not asked. In the last two the camera
 /// looks along it, and the receiver does not.
 TEST(AreaLights, CurvesAreTubes) {
-    const double slant = std::sqrt(0.5) / M_PI;
-    const std::pair<std::string, double> cases[] = {
-        {"Curves \"linear\" [2] \"nonperiodic\" \"P\" [-1 0 0 1 0 0] \"constantwidth\" [.04] ", 1 / M_PI},
-        {"Curves \"linear\" [2] \"nonperiodic\" \"P\" [0 -1 0 0 1 0] \"constantwidth\" [.04] ", 1 / M_PI},
+    const std::pair<std::string, std::string> cases[] = {
+        {"Curves \"linear\" [2] \"nonperiodic\" \"P\" [-1 0 0 1 0 0] \"constantwidth\" [.04] ", "1, 0, 0"},
+        {"Curves \"linear\" [2] \"nonperiodic\" \"P\" [0 -1 0 0 1 0] \"constantwidth\" [.04] ", "0, 1, 0"},
         {"Curves \"cubic\" [4] \"nonperiodic\" \"P\" [-1 0 -1 -.5 0 -.5 .5 0 .5 1 0 1] "
          "\"constantwidth\" [.04] ",
-         slant},
-        {"Curves \"linear\" [2] \"nonperiodic\" \"P\" [-1 0 0 1 0 0] \"constantwidth\" [.3] ", 1 / M_PI},
-        {"Curves \"linear\" [2] \"nonperiodic\" \"P\" [0 -1 -1 0 1 1] \"constantwidth\" [.02] ", slant},
+         "1, 0, 1"},
+        {"Curves \"linear\" [2] \"nonperiodic\" \"P\" [-1 0 0 1 0 0] \"constantwidth\" [.3] ", "1, 0, 0"},
+        {"Curves \"linear\" [2] \"nonperiodic\" \"P\" [0 -1 -1 0 1 1] \"constantwidth\" [.02] ", "0, 1, 1"},
     };
-    for (const auto& [shape, expected] : cases) {
+    for (const auto& [shape, way] : cases) {
         SCOPED_TRACE(shape);
         expect_lit(lit_by(arealight("Translate 0 0 -98 " + shape))
-                       .render("Ci = color(1e4 * comp(diffuse(normal(0, 0, -1)), 0), " +
-                               std::to_string(expected) + ", 1);"),
+                       .render("vector to = point(0, 0, -95) - P, n = normalize(to);"
+                               "float sine = length(normalize(vector(" +
+                               way +
+                               ")) ^ n);"
+                               "Ci = 1e4 * color(comp(diffuse(normal(0, 0, -1)), 0),"
+                               "  sine / PI * -zcomp(n) / (to . to), 1);"),
                    0.005, 0.02);
     }
     // Ribbons across normals are ribbons, and shine to both sides.
     expect_lit(
         lit_by(arealight("Translate 0 0 -98 Curves \"linear\" [2] \"nonperiodic\" \"P\" [-1 0 0 1 0 0] "
                          "\"N\" [0 .6 .8 0 .6 .8] \"constantwidth\" [.04] "))
-            .render("Ci = color(1e4 * comp(diffuse(normal(0, 0, -1)), 0), .8, 1);"),
+            .render("vector to = point(0, 0, -95) - P, n = normalize(to);"
+                    "Ci = 1e4 * color(comp(diffuse(normal(0, 0, -1)), 0),"
+                    "  abs(vector(0, .6, .8) . n) * -zcomp(n) / (to . to), 1);"),
         0.005, 0.02);
 }
 

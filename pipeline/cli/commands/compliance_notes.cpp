@@ -5,7 +5,8 @@ namespace {
 
 constexpr RequestNote kRequests[] = {
     {"AreaLightSource",
-     "sampled over all primitives up to the end of its attributes, where they are at shutter open"},
+     "sampled over all primitives up to the end of its attributes; as they move where surfaces sample motion, "
+     "else where they are at shutter open"},
     {"Atmosphere", "at visible points; no volume between the surfaces that a sample of the camera sees"},
     {"Bound", "read; the renderer finds bounds itself"},
     {"Bxdf", "RIS shaders are not run: rissurface, in the Bxdf's colour or texture"},
@@ -211,8 +212,8 @@ constexpr RequestNote kFunctions[] = {
      "\"direction\" and \"length\"; 0 for all else"},
     {"shadow", "\"raytrace\" in lights and in illuminance blocks: elsewhere a warning, and 0"},
     {"trace", "a colour, or the distance to the nearest hit"},
-    {"incident", "0: rays are not traced"},
-    {"opposite", "0: rays are not traced"},
+    {"incident", "of the Atmosphere, as atmosphere(); Interior and Exterior are not asked"},
+    {"opposite", "0: Interior and Exterior are not asked"},
     {"specular", "the exponent of N.H is 8 / roughness, where RISpec writes 1 / roughness"},
     {"specularbrdf", "the exponent of N.H is 8 / roughness, where RISpec writes 1 / roughness"},
 };
