@@ -1,7 +1,7 @@
 /// Rays that meet displaced surfaces, next to the closed forms of what these have become.
 #include <gtest/gtest.h>
 
-#include "tests/rays/rays_harness.h"
+#include "tests/rays/ray_world_harness.h"
 
 namespace trapeze::testing {
 namespace {
@@ -153,32 +153,98 @@ const std::string kFromNearTheSurface =
     "  vector b = way(); leaks += lost(o + .97 * sqrt(random()) * far * a, b) +"
     "  lost(o + .97 * far * a, way()) + lost(o + .97 * far * a, b - .99 * (b . a) * a); } }";
 
+/// Within the mesh asks a square, of each pixel; "way()" is a direction at random. With levels it is
+/// 64 x 64 pixels of a larger picture, for which there are more of them.
+Case within_bumpy_mesh(bool levels, bool in_time) {
+    Case c;
+    c.options = "Shutter 0 1 ";
+    if (levels)
+        c.options += "Option \"trace\" \"int levels\" 4 Format 256 256 1 CropWindow .375 .625 .375 .625 ";
+    if (in_time) c.asker = "Attribute \"trace\" \"int samplemotion\" 1 ";
+    c.asks = levels ? "Patch \"bilinear\" \"P\" [-.26 .26 5 .26 .26 5 -.26 -.26 5 .26 -.26 5] "
+                    : "Patch \"bilinear\" \"P\" [-1.02 1.02 5 1.02 1.02 5 -1.02 -1.02 5 1.02 -1.02 5] ";
+    c.shaders["bumps"] =
+        "displacement bumps() { P += .2 * (noise(4 * transform(\"object\", P)) - .5) * normalize(N);"
+        "N = calculatenormal(P); }";
+    c.things = bumpy_mesh();
+    c.functions = "vector way() { return normalize(vector(random() - .5, random() - .5, random() - .5)); }";
+    return c;
+}
+
 /// A million rays with one level of the geometry, and a million with four.
 TEST(RayLeaks, ACreasedMeshThatIsDisplacedAndMovesHasNone) {
     for (const bool levels : {false, true})
         for (const bool in_time : {true, false}) {
-            Case c;
-            c.options = "Shutter 0 1 ";
-            // 64 x 64 pixels of a larger picture, for which there are more levels.
-            if (levels)
-                c.options +=
-                    "Option \"trace\" \"int levels\" 4 Format 256 256 1 CropWindow .375 .625 .375 .625 ";
-            if (in_time) c.asker = "Attribute \"trace\" \"int samplemotion\" 1 ";
-            c.asks = levels
-                         ? "Patch \"bilinear\" \"P\" [-.26 .26 5 .26 .26 5 -.26 -.26 5 .26 -.26 5] "
-                         : "Patch \"bilinear\" \"P\" [-1.02 1.02 5 1.02 1.02 5 -1.02 -1.02 5 1.02 -1.02 5] ";
-            c.shaders["bumps"] =
-                "displacement bumps() { P += .2 * (noise(4 * transform(\"object\", P)) - .5) * normalize(N);"
-                "N = calculatenormal(P); }";
-            c.things = bumpy_mesh();
-            c.functions =
-                "vector way() { return normalize(vector(random() - .5, random() - .5, random() - .5)); }"
+            Case c = within_bumpy_mesh(levels, in_time);
+            c.functions +=
                 "float lost(point from; vector w) {"
                 "  float far = trace(from, w, \"bias\", 0); return far > 1e20 ? 1 : 0; } ";
             SCOPED_TRACE(std::string(levels ? "levels " : "") + (in_time ? "in time" : ""));
             expect_told(c.render("point o = point(0, 0, 5); float leaks = 0; uniform float i;" +
                                  (in_time ? kFromTheBall : kFromNearTheSurface) + "Ci = told(leaks, 0, 1);"),
                         0, 64 * 64);
+        }
+}
+
+/// Two million rays to points outside, of which nothing arrives; without the mesh all of them do. With levels
+/// they are cones: no others meet coarse geometry.
+TEST(RayLeaks, NothingIsTransmittedOutOfAMeshThatIsDisplacedAndMoves) {
+    for (const bool levels : {false, true})
+        for (const bool in_time : {true, false}) {
+            Case c = within_bumpy_mesh(levels, in_time);
+            c.functions += std::string(
+                               "float lost(point from; vector w) { color open = "
+                               "transmission(from, from + 60 * normalize(w), \"bias\", 0") +
+                           (levels ? ", \"samplecone\", .3" : "") + "); return comp(open, 0); } ";
+            SCOPED_TRACE(std::string(levels ? "levels " : "") + (in_time ? "in time" : ""));
+            const std::string begin = "point o = point(0, 0, 5); float leaks = 0; uniform float i;";
+            expect_told(
+                c.render(begin + (in_time ? kFromTheBall : kFromNearTheSurface) + "Ci = told(leaks, 0, 1);"),
+                0, 64 * 64);
+            c.things = "";
+            expect_told(c.render(begin + kFromTheBall + "Ci = told(leaks, 128, 1);"), 0, 64 * 64);
+        }
+}
+
+/// Nor is any of the sky seen, of half of it or of all.
+TEST(RayLeaks, NoSkyIsSeenFromWithinAMeshThatIsDisplacedAndMoves) {
+    for (const bool levels : {false, true})
+        for (const bool in_time : {true, false}) {
+            Case c = within_bumpy_mesh(levels, in_time);
+            SCOPED_TRACE(std::string(levels ? "levels " : "") + (in_time ? "in time" : ""));
+            const std::string hidden =
+                "point o = point(0, 0, 5), p = o + .6 * pow(random(), 1 / 3) * way(), q = o + .6 * way();"
+                "float hidden = occlusion(p, way(), 16, \"bias\", 0) + occlusion(q, way(), 16, \"bias\", 0) +"
+                "  occlusion(q, way(), 32, \"bias\", 0, \"distribution\", \"uniform\", \"coneangle\", PI);";
+            expect_told(c.render(hidden + "Ci = told(hidden, 3, 1);"), 0, 64 * 64);
+            c.things = "";
+            expect_told(c.render(hidden + "Ci = told(hidden, 0, 1);"), 0, 64 * 64);
+        }
+}
+
+/// Lights all around, near and far, do not light a square of the diagonal 1.1 within.
+TEST(RayLeaks, LightsDoNotShineIntoAMeshThatIsDisplacedAndMoves) {
+    for (const char* shadow :
+         {"transmission(from, Ps, \"bias\", 0)", "transmission(Ps, from, \"samplecone\", .05)",
+          "1 - shadow(\"raytrace\", Ps, \"samples\", 4)"})
+        for (const bool in_time : {true, false}) {
+            Case c = within_bumpy_mesh(false, in_time);
+            SCOPED_TRACE(std::string(shadow) + (in_time ? " in time" : ""));
+            c.shaders["shadowed"] = "light shadowed(point from = point(0, 0, 0);) { illuminate(from) Cl = " +
+                                    std::string(shadow) + "; }";
+            RayNumbers number;
+            for (int i = 0; i < 40; ++i) {
+                const V3f way = number.in_cube(1).normalized(), at = way * number(4, 30) + V3f(0, 0, 5);
+                c.asker += "LightSource \"shadowed\" " + std::to_string(i) + " \"from\" [" +
+                           std::to_string(at.x) + ' ' + std::to_string(at.y) + ' ' + std::to_string(at.z) +
+                           "] ";
+            }
+            c.asker += "Translate 0 0 5 Rotate 35 1 1 0 ";
+            c.asks = "Patch \"bilinear\" \"P\" [-.39 .39 0 .39 .39 0 -.39 -.39 0 .39 -.39 0] ";
+            const std::string arrives = "float light = 0; illuminance(P, N, PI) { light += comp(Cl, 0); }";
+            expect_told(c.render(arrives + "Ci = told(light, 0, 1);"), 0, 500);
+            c.things = "";
+            expect_told(c.render(arrives + "Ci = told(light, 40, 1);"), 0, 500);
         }
 }
 

@@ -90,6 +90,118 @@ TEST(RayLevels, EdgesLetNothingThrough) {
         }
 }
 
+/// A ray from within a shape of the corners +-1 towards an edge that faces share.
+struct AtEdge {
+    V3f from, target;
+};
+
+/// A straight edge of a cube.
+AtEdge at_straight_edge(RayNumbers& number) {
+    V3f edge(number(-1, 1), number(-1, 1) < 0 ? -1.0f : 1.0f, number(-1, 1) < 0 ? -1.0f : 1.0f);
+    if (number(0, 1) < .06f) edge.x = edge.x < 0 ? -1.0f : 1.0f;
+    const float turn = number(0, 3);
+    if (turn > 1) edge = V3f(edge.y, edge.x, edge.z);
+    if (turn > 2) edge = V3f(edge.z, edge.y, edge.x);
+    return {number.in_cube(.9f), edge};
+}
+
+/// Of a subdivided cube, z = +-1 of which are flat within the closed curves that sharp creases are: uniform
+/// b-splines of their corners.
+AtEdge at_crease(RayNumbers& number) {
+    const V2f corners[] = {V2f(-1, -1), V2f(1, -1), V2f(1, 1), V2f(-1, 1)};
+    const int first = static_cast<int>(number(0, 3.999f));
+    const float t = number(0, 1) < .06f ? 0.0f : number(0, 1), s = 1 - t;
+    const float weights[] = {s * s * s / 6, (3 * t * t * t - 6 * t * t + 4) / 6,
+                             (3 * s * s * s - 6 * s * s + 4) / 6, t * t * t / 6};
+    V2f at(0, 0);
+    for (int i = 0; i < 4; ++i) at += corners[(first + i) % 4] * weights[i];
+    return {number.in_cube(.4f), V3f(at.x, at.y, number(-1, 1) < 0 ? -1.0f : 1.0f)};
+}
+
+/// Of a cube subdivided without creases, or with those, edges lie in the planes of equal coordinates. The ray
+/// comes to them, but not where the target is.
+AtEdge at_plane_of_symmetry(RayNumbers& number) {
+    const float side = number(-1, 1) < 0 ? -1.0f : 1.0f, from = number(-.4f, .4f), to = number(.3f, 1);
+    return {V3f(from, side * from, number(-.4f, .4f)), V3f(to, side * to, number(-.5f, .5f))};
+}
+
+/// Corners of a cube, bent by an affine map: what is made of them is bent as they are.
+std::string corners_of(const M44f& map) {
+    std::string text = "\"P\" [";
+    for (int i = 0; i < 8; ++i) {
+        const V3f P = V3f(i & 1 ? 1.0f : -1.0f, i & 2 ? 1.0f : -1.0f, i & 4 ? 1.0f : -1.0f) * map;
+        for (int k = 0; k < 3; ++k) text += std::to_string(P[k]) + ' ';
+    }
+    return text + "] ";
+}
+
+/// By how much a shape leans and grows while the shutter is open.
+M44f map_at(float time, float scale, bool moves) {
+    M44f turn, lean;
+    turn.setAxisAngle(V3f(1, 2, 3).normalized(), .35f);
+    lean[0][1] = .3f, lean[2][0] = -.2f, lean[1][1] = 1.4f, lean[3][0] = .25f;
+    M44f map = turn;
+    if (moves) map = turn * (1 - time) + turn * lean * time;
+    map = map * scale;
+    map[3][3] = 1;
+    return map;
+}
+
+/// Faces, and rays towards their edges.
+struct EdgesOf {
+    std::string faces;
+    AtEdge (*at)(RayNumbers&);
+    float off;  ///< the most that a ray may meet them off the target, in sides of micropolygons
+};
+
+/// 100000 rays towards edges, at any time.
+void expect_edges_are_closed(const EdgesOf& edges, float scale, bool moves) {
+    SCOPED_TRACE(edges.faces + std::to_string(scale) + (moves ? " moves" : ""));
+    const std::string open = edges.faces + corners_of(map_at(0, scale, moves)),
+                      shut = edges.faces + corners_of(map_at(1, scale, moves));
+    const RayWorldScene closed(
+        moves ? "Attribute \"trace\" \"int samplemotion\" 1 MotionBegin [0 1] " + open + shut + "MotionEnd "
+              : open,
+        "Shutter 0 1 " + kLevels);
+    RayNumbers number;
+    std::array<int, 4> met{};
+    int leaks = 0, off = 0;
+    for (int i = 0; i < 100000; ++i) {
+        const AtEdge place = edges.at(number);
+        const float time = moves ? number(0, 1) : 0.0f;
+        M44f map = map_at(0, scale, moves) * (1 - time) + map_at(1, scale, moves) * time;
+        const V3f from = place.from * map, target = place.target * map;
+        RaySegment ray = ray_to(from, target - from, number(0, 1) * number(0, 1));
+        ray.time = time;
+        const std::optional<RaySurfaceHit> hit = closed.world().closest(ray, RayKind::Diffuse);
+        leaks += !hit || closed.world().blocked(ray, RayKind::Transmission) != true;
+        if (!hit) continue;
+        ++met[hit->level];
+        const float distance = (target - from).length(),
+                    side = target.length() * std::max(1.0f, level_side(hit->level)) / 128;
+        off += !(std::abs(hit->distance - distance) <= edges.off * side);
+    }
+    EXPECT_EQ(leaks, 0);
+    EXPECT_EQ(off, 0);
+    EXPECT_GT(met[0], 1000);
+    EXPECT_GT(met[1] + met[2], 1000);
+}
+
+/// Curved faces, and such that move.
+TEST(RayLevels, EdgesOfWhatIsCurvedOrMovesLetNothingThrough) {
+    const std::string smooth = "SubdivisionMesh \"catmull-clark\" " + kCube,
+                      creased = smooth + "[\"crease\" \"crease\"] [5 1 5 1] [0 1 3 2 0 4 5 7 6 4] [10 10] ";
+    const EdgesOf all[] = {
+        {"PointsPolygons " + kCube, at_straight_edge, .002f},
+        {smooth + "[] [] [] [] ", at_plane_of_symmetry, kInfinity},
+        {creased, at_plane_of_symmetry, kInfinity},
+        {creased, at_crease, .05f},
+    };
+    for (const EdgesOf& edges : all)
+        for (const float scale : {1.0f, 4.0f})
+            for (const bool moves : {false, true}) expect_edges_are_closed(edges, scale, moves);
+}
+
 /// A quarter of a million rays of all widths from all over the inside of each thing.
 TEST(RayLevels, ClosedThingsLetNothingThrough) {
     const std::string things[] = {

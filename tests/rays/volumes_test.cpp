@@ -128,5 +128,66 @@ TEST(RayVolumes, MoveWithTheirSurfaces) {
     expect_near(c.render(kThrough + "Ci = color(comp(trace(P, vector(0, 0, -1)), 0), t, sure);"), kThinChord);
 }
 
+// Atmospheres.
+
+/// What a mirror shows has its Atmosphere from the mirror on, not from the eye.
+TEST(RayVolumes, TheAtmosphereOfAHitIsFromWhereItsRayBegins) {
+    Case c = hazy();
+    c.things =
+        "Surface \"constant\" Color 1 1 1 Atmosphere \"haze\" \"k\" [.2] \"own\" [.25 .25 .25] " + wall("2");
+    const std::string expected =
+        "float t = exp(-.2 * 3 * sqrt(1.25)), e = .25 + .75 * t;"
+        "vector w = vector(.5, 0, -1); ";
+    expect_near(c.render(expected + "Ci = color(comp(trace(P, w), 0), e, 1);"), 1e-5f);
+    expect_near(
+        c.render(expected + "color got = 0; gather(\"illuminance\", P, w, 0, 1, \"surface:Ci\", got) { }"
+                            "Ci = color(comp(got, 0), e, 1);"),
+        1e-5f);
+    expect_near(
+        c.render(expected + "Ci = color(comp(indirectdiffuse(P, w, 1, \"coneangle\", 1e-4), 0), e, 1);"),
+        1e-3f);
+    // RISpec's own.
+    c.things =
+        "Surface \"constant\" Color 1 1 1 Atmosphere \"fog\" \"distance\" [4] "
+        "\"background\" [.5 .5 .5] " +
+        wall("2");
+    expect_near(c.render("float d = 1 - exp(-3 / 4);"
+                         "Ci = color(comp(trace(P, vector(0, 0, -1)), 0), 1 - .5 * d, 1);"),
+                1e-5f);
+}
+
+/// A mirror that leans, in perspective, shows a wall beside the camera.
+TEST(RayVolumes, AMirrorShowsFogAlongWhatItReflects) {
+    Case c = hazy();
+    c.options = "Projection \"perspective\" \"fov\" 20 ";
+    c.asker = "Translate 0 0 5 Rotate 15 0 1 0 Translate 0 0 -5 ";
+    c.things = "ShadingRate 400 Surface \"constant\" Color 1 1 1 Atmosphere \"haze\" \"k\" [.1] " + wall("1");
+    expect_near(c.render("vector r = reflect(normalize(I), faceforward(normalize(N), I));"
+                         "point p = transform(\"camera\", P); vector w = vtransform(\"camera\", r);"
+                         "float way = (1 - zcomp(p)) / zcomp(w);"
+                         "Ci = color(comp(trace(P, r), 0), exp(-.1 * way), way > 0 ? 1 : 0);"),
+                1e-4f);
+}
+
+/// Of two mirrors each has its own over the way to it.
+TEST(RayVolumes, AtmospheresOfMirrorsAreOneBehindTheOther) {
+    Case c = hazy();
+    c.shaders["mirror"] =
+        "surface mirror() { Ci = trace(P, reflect(normalize(I), faceforward(normalize(N), I))); Oi = 1; }";
+    c.asker = "Attribute \"trace\" \"int maxspeculardepth\" 9 ";
+    c.things =
+        "Attribute \"trace\" \"int maxspeculardepth\" 9 Surface \"constant\" Color 1 1 1 "
+        "Atmosphere \"haze\" \"k\" [.2] \"own\" [.5 .5 .5] " +
+        wall("9") + "Surface \"mirror\" Atmosphere \"haze\" \"k\" [.3] \"own\" [.25 .25 .25] " + wall("2");
+    expect_near(c.render("float far = exp(-.2 * 7), near = exp(-.3 * 3); float e = .5 + .5 * far;"
+                         "Ci = color(comp(trace(P, vector(0, 0, -1)), 0), .25 + (e - .25) * near, 1);"),
+                1e-5f);
+    // The ray's medium is there in place of what is hit.
+    c.asker += "Exterior \"haze\" \"k\" [.6] ";
+    expect_near(c.render("float e = .5 + .5 * exp(-.2 * 7);"
+                         "Ci = color(comp(trace(P, vector(0, 0, -1)), 0), e * exp(-.6 * 3), 1);"),
+                1e-5f);
+}
+
 }  // namespace
 }  // namespace trapeze::testing
