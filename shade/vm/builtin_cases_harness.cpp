@@ -22,6 +22,8 @@ std::vector<BuiltinCase> number_cases() {
         {"r = atan(X - 2, Y - 0.5);", TRAPEZE_GIVES(std::atan2(x - 2, y - 0.5))},
         {"r = pow(X + 0.5, Y * 3);", TRAPEZE_GIVES(std::pow(x + 0.5, y * 3)), 1e-5},
         {"r = exp(X);", TRAPEZE_GIVES(std::exp(x))},
+        {"r = erf(X);", TRAPEZE_GIVES(std::erf(x))},
+        {"r = erfc(X);", TRAPEZE_GIVES(std::erfc(x))},
         {"r = log(X + 0.1);", TRAPEZE_GIVES(std::log(x + 0.1)), 5e-6},
         {"r = log(X + 1, Y + 2);", TRAPEZE_GIVES(std::log(x + 1) / std::log(y + 2))},
         {"r = sqrt(X);", TRAPEZE_GIVES(std::sqrt(x))},

@@ -122,6 +122,9 @@ void add_derivatives(std::vector<BuiltinCase>& cases) {
         cases.push_back({"r = K(Dv(" + triple + "));", TRAPEZE_GIVES(30), 1e-4, zero});
         cases.push_back({"r = K(Deriv(" + type + " (X * 6, 0, 0), X * 2));", TRAPEZE_GIVES(3), 1e-5, zero});
     }
+    const auto alone = TRAPEZE_GIVES(2 * x - y);
+    cases.push_back({"r = gridmin(X * 2 - Y);", TRAPEZE_GIVES(-1), 1e-5, alone});
+    cases.push_back({"r = gridmax(X * 2 - Y);", TRAPEZE_GIVES(2), 1e-5, alone});
     cases.push_back({"r = area(point (X, Y, 4));", TRAPEZE_GIVES(1.0 / 6), 1e-6, zero});
     cases.push_back({"r = area(point (X, Y, 4), \"dicing\");", TRAPEZE_GIVES(1.0 / 6), 1e-6, zero});
     cases.push_back(

@@ -1,4 +1,5 @@
 // Operations that look at the vertices next to each one, and depth().
+#include <algorithm>
 #include <cmath>
 
 #include "shade/vm/context_ops.h"
@@ -49,6 +50,23 @@ void area(Run& run, const Step& step, std::span<const Operand> operands) {
     if (of_dicing || !run.context().footprints) return;
     const float* const widening = run.context().footprints->get().widening;
     for (size_t i = 0; i < run.lanes(); ++i) operands[0].data[i] *= widening[i];
+}
+
+/// gridmin(x) and gridmax(x): of all vertices of the grid, whatever block of the shader they are in.
+void extremes(Run& run, const Step& step, std::span<const Operand> operands) {
+    const Operand &out = operands[0], &x = operands[1];
+    if (!out.lane_mask) return fill_operand(run, out, std::span(x.data, 1));
+    const bool least = step.op == Op::GridMin;
+    for (const GridSpan& span : spans_of(run)) {
+        const auto count = static_cast<size_t>(span.shape.vertex_count());
+        float extreme = Run::at(x, 0, span.first);
+        for (size_t i = span.first; i < span.first + count; ++i)
+            extreme = least ? std::min(extreme, Run::at(x, 0, i)) : std::max(extreme, Run::at(x, 0, i));
+        std::fill_n(out.data + span.first, count, extreme);
+    }
+    // What belongs to no grid has no others beside it.
+    if (spans_of(run).empty())
+        for (size_t i = 0; i < run.lanes(); ++i) out.data[i] = Run::at(x, 0, i);
 }
 
 /// calculatenormal(P).
@@ -105,9 +123,9 @@ void depth(Run& run, const Step&, std::span<const Operand> operands) {
 }
 
 constexpr ContextRow kNeighbourRows[] = {
-    {Op::Du, differences}, {Op::Dv, differences},          {Op::Deriv, differences},
-    {Op::Area, area},      {Op::CalculateNormal, normals}, {Op::FilterStep, filtered_step},
-    {Op::Depth, depth},
+    {Op::Du, differences},   {Op::Dv, differences},          {Op::Deriv, differences},
+    {Op::Area, area},        {Op::CalculateNormal, normals}, {Op::FilterStep, filtered_step},
+    {Op::GridMin, extremes}, {Op::GridMax, extremes},        {Op::Depth, depth},
 };
 
 }  // namespace

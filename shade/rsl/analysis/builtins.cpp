@@ -33,6 +33,8 @@ constexpr Builtin kBuiltins[] = {
     {"exp", 'f', "f", Op::Exp},
     {"log", 'f', "f", Op::Log},
     {"log", 'f', "ff", Op::LogBase},
+    {"erf", 'f', "f", Op::Erf},  // PRMan's
+    {"erfc", 'f', "f", Op::Erfc},
     {"sqrt", 'f', "f", Op::Sqrt},
     {"inversesqrt", 'f', "f", Op::InverseSqrt},
     {"abs", 'f', "f", Op::Abs},
@@ -172,6 +174,8 @@ constexpr Builtin kBuiltins[] = {
     {"rotate", 'm', "mfv", Op::RotateMatrix},
     {"area", 'f', "p", Op::Area},
     {"area", 'f', "ps", Op::Area},
+    {"gridmin", 'f', "f", Op::GridMin},  // PRMan's
+    {"gridmax", 'f', "f", Op::GridMax},
     {"faceforward", 'v', "vv", Op::FaceForward},
     {"faceforward", 'v', "vvv", Op::FaceForward},
     {"reflect", 'v', "vv", Op::Reflect},

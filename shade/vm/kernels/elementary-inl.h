@@ -249,6 +249,42 @@ HWY_INLINE V exponential(V x) {
     return scale_by_power(power, hn::ConvertTo(DI(), n));
 }
 
+/// erfc(z) for z of 0 to 11, beyond which it is 0 as a float: a polynomial of 1 / (1 + z / 2), fitted by
+/// Chebyshev, within 1.2e-7 of itself but for rounding of z * z [Press et al., Numerical Recipes, 6.2].
+HWY_INLINE V complement_of_positive(V z) {
+    const V t = hn::Div(set(1), hn::Add(set(1), hn::Mul(z, set(0.5f))));
+    V p = set(0.17087277f);
+    for (const float c : {-0.82215223f, 1.48851587f, -1.13520398f, 0.27886807f, -0.18628806f, 0.09678418f,
+                          0.37409196f, 1.00002368f, -1.26551223f})
+        p = step(p, t, c);
+    return hn::Mul(t, exponential(hn::Sub(p, hn::Mul(z, z))));
+}
+
+/// erf(x) for |x| < 1/2, by its series.
+HWY_INLINE V error_function_near_zero(V x) {
+    const V xx = hn::Mul(x, x);
+    V p = set(1.0f / 9360);
+    for (const float c : {-1.0f / 1320, 1.0f / 216, -1.0f / 42, 1.0f / 10, -1.0f / 3, 1.0f})
+        p = step(p, xx, c);
+    return hn::Mul(hn::Mul(x, set(1.12837917f)), p);
+}
+
+/// erfc(x) = 1 - erf(x), without the loss of that difference where it is small. NaN counts as a large
+/// positive x.
+HWY_INLINE V complementary_error_function(V x) {
+    const V positive = complement_of_positive(at_most(hn::Abs(x), set(11)));
+    const V farther = hn::IfThenElse(hn::Lt(x, hn::Zero(D())), hn::Sub(set(2), positive), positive);
+    return hn::IfThenElse(hn::Lt(hn::Abs(x), set(0.5f)), hn::Sub(set(1), error_function_near_zero(x)),
+                          farther);
+}
+
+/// erf(x), the integral of 2 / sqrt(pi) e^(-t^2) from 0 to x. NaN as above.
+HWY_INLINE V error_function(V x) {
+    const V positive = hn::Sub(set(1), complement_of_positive(at_most(hn::Abs(x), set(11))));
+    const V farther = hn::IfThenElse(hn::Lt(x, hn::Zero(D())), hn::Neg(positive), positive);
+    return hn::IfThenElse(hn::Lt(hn::Abs(x), set(0.5f)), error_function_near_zero(x), farther);
+}
+
 /// ln x = e ln 2 + ln(1 + f), the small parts summed first.
 HWY_INLINE V logarithm(V x) {
     const Scientific split = split_exponent(at_least(x, set(kLeastNormal)));

@@ -26,6 +26,8 @@ constexpr KernelRow kRows[] = {
     {Op::Atan, component_kernel<static_cast<V (*)(V)>(arc_tangent)>},
     {Op::Atan2, component_kernel<static_cast<V (*)(V, V)>(arc_tangent)>},
     {Op::Pow, component_kernel<power>},
+    {Op::Erf, component_kernel<error_function>},
+    {Op::Erfc, component_kernel<complementary_error_function>},
 };
 
 Kernel find_elementary(Op op, std::span<const int> widths) {

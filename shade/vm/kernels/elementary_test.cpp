@@ -62,6 +62,14 @@ TEST(Elementary, ExponentialsAndLogarithms) {
     check_function({Op::Log, std::log, 0.4, 2.5, 2, 0});
 }
 
+/// Where erfc is small z * z is rounded, by up to 1 in 2^24 of some 80.
+TEST(Elementary, ErrorFunctions) {
+    check_function({Op::Erf, std::erf, -0.5, 0.5, 3, 0});
+    check_function({Op::Erf, std::erf, -12, 12, 0, 3e-7});
+    check_function({Op::Erfc, std::erfc, -12, 1, 0, 4e-7});
+    check_function({Op::Erfc, std::erfc, 1, 9, 120, 0});
+}
+
 TEST(Elementary, AnglesOfVectors) {
     KernelNumbers numbers;
     const auto exact = [](const Inputs& in, double* out) {
@@ -104,6 +112,11 @@ TEST(Elementary, ArgumentsOutsideTheDomainAreClamped) {
     EXPECT_EQ(call(Op::Log, {-5}), call(Op::Log, {0}));
     EXPECT_EQ(call(Op::Exp, {1000}), INFINITY);
     EXPECT_EQ(call(Op::Exp, {-1000}), 0);
+    EXPECT_EQ(call(Op::Erf, {0}), 0);
+    EXPECT_EQ(call(Op::Erf, {INFINITY}), 1);
+    EXPECT_EQ(call(Op::Erf, {-INFINITY}), -1);
+    EXPECT_EQ(call(Op::Erfc, {INFINITY}), 0);
+    EXPECT_EQ(call(Op::Erfc, {-INFINITY}), 2);
     EXPECT_EQ(call(Op::Pow, {0, 0}), 1);
     EXPECT_EQ(call(Op::Pow, {0, 0.5f}), 0);
     EXPECT_EQ(call(Op::Pow, {-2, 0.5f}), 0);
@@ -116,7 +129,8 @@ TEST(Elementary, ArgumentsOutsideTheDomainAreClamped) {
 
 TEST(Elementary, NothingGivesNoNumber) {
     KernelNumbers numbers;
-    for (Op op : {Op::Exp, Op::Log, Op::Sin, Op::Cos, Op::Tan, Op::Asin, Op::Acos, Op::Atan})
+    for (Op op :
+         {Op::Exp, Op::Log, Op::Sin, Op::Cos, Op::Tan, Op::Asin, Op::Acos, Op::Atan, Op::Erf, Op::Erfc})
         for (int i = 0; i < 300; ++i) {
             const float x = numbers.any();
             EXPECT_FALSE(std::isnan(call(op, {x}))) << int(op) << ' ' << x;
