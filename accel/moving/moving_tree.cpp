@@ -275,11 +275,10 @@ std::span<const Box3f> MovingTree::boxes_of(const Sources& sources, size_t r, si
     const uint32_t reference = sources.references[r];
     const MicropolygonId& id = micropolygons_[r];
     std::span<const Box3f> there = whole;
-    const bool may_be_part = !sources.are_places;
     if (!std::isfinite(whole[0].min.x)) {  // its rounding makes any box infinite
         boxes.of_part[0] = Box3f(V3f(0), V3f(0));
         there = std::span(boxes.of_part).first(1);
-    } else if (may_be_part && PartId::is_part(reference)) {
+    } else if (!sources.are_places && PartId::is_part(reference)) {
         const Grid& grid = grids_->grids[id.grid];
         boxes_of_part(grid, id, sources.parts[r].box, sources.poses[PartId::index(reference)].corners(),
                       options_.clipping, whole, boxes.of_part);

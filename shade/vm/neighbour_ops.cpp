@@ -56,17 +56,13 @@ void area(Run& run, const Step& step, std::span<const Operand> operands) {
 void extremes(Run& run, const Step& step, std::span<const Operand> operands) {
     const Operand &out = operands[0], &x = operands[1];
     if (!out.lane_mask) return fill_operand(run, out, std::span(x.data, 1));
-    const bool least = step.op == Op::GridMin;
-    for (const GridSpan& span : spans_of(run)) {
-        const auto count = static_cast<size_t>(span.shape.vertex_count());
-        float extreme = Run::at(x, 0, span.first);
-        for (size_t i = span.first; i < span.first + count; ++i)
-            extreme = least ? std::min(extreme, Run::at(x, 0, i)) : std::max(extreme, Run::at(x, 0, i));
-        std::fill_n(out.data + span.first, count, extreme);
-    }
     // What belongs to no grid has no others beside it.
-    if (spans_of(run).empty())
-        for (size_t i = 0; i < run.lanes(); ++i) out.data[i] = Run::at(x, 0, i);
+    for (size_t i = 0; i < run.lanes(); ++i) out.data[i] = Run::at(x, 0, i);
+    for (const GridSpan& span : spans_of(run)) {
+        const std::span values(out.data + span.first, static_cast<size_t>(span.shape.vertex_count()));
+        std::ranges::fill(values, step.op == Op::GridMin ? *std::ranges::min_element(values)
+                                                         : *std::ranges::max_element(values));
+    }
 }
 
 /// calculatenormal(P).
