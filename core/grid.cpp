@@ -25,9 +25,10 @@ void GridArena::Free::operator()(std::byte* p) const {
 std::byte* GridArena::take(size_t size) {
     size = aligned(size);
     if (size > left_) {
-        // The first ones are small, since most scenes are; later ones are large pages.
-        const bool many = bytes_ >= 2 * kLargePage && chunk_bytes_ >= kDefaultChunk;
-        const size_t chunk = std::max(size, many ? 2 * kLargePage - kReadable : chunk_bytes_);
+        // The first ones are small, since most scenes are; later ones are large pages, as soon as one that is
+        // nearly empty adds no more than an eighth: regions are cut to fit the memory.
+        const bool many = bytes_ >= 8 * kLargePage && chunk_bytes_ >= kDefaultChunk;
+        const size_t chunk = std::max(size, many ? kLargePage - kReadable : chunk_bytes_);
         chunks_.emplace_back(static_cast<std::byte*>(large_memory(chunk + kReadable)));
         next_ = chunks_.back().get();
         left_ = chunk;
