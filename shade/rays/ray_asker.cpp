@@ -37,13 +37,17 @@ float RayAsker::bend_of(const ShadingGrid& grid) const {
     return trapeze::bend_of(grid, *service_.scene, side(grid.hit_level));
 }
 
-LeftSurface RayAsker::left_at(const V3f& P, const RayLane& lane, float time, float asked) const {
-    if (asked >= 0) return {asked};
-    if (attributes_.rays.bias > 0) return {attributes_.rays.bias};
+float RayAsker::margin_at(const V3f& P, const RayLane& lane, float asked) const {
+    if (asked >= 0) return asked;
+    if (attributes_.rays.bias > 0) return attributes_.rays.bias;
     const bool displaced = attributes_.displacement || attributes_.displacement_bound > 0;
+    return service_.scene->spacing(P) * side(lane.level()) * (displaced ? kBiasOfDisplacedSide : kBiasOfSide);
+}
+
+LeftSurface RayAsker::left_at(const V3f& P, const RayLane& lane, float time, float asked) const {
     LeftSurface left;
-    left.most =
-        service_.scene->spacing(P) * side(lane.level()) * (displaced ? kBiasOfDisplacedSide : kBiasOfSide);
+    left.most = margin_at(P, lane, asked);
+    if (asked >= 0 || attributes_.rays.bias > 0) return left;
     if (!(lane.bend < left.most) || (time > 0 && lane.grid->P.size() > 1)) return left;
     const size_t vertex = lane.lane - lane.first_of_grid;
     const float rounding = rounding_at(*lane.grid, vertex);

@@ -53,7 +53,10 @@ class RayAsker {
     const RayService& service() const { return service_; }
     /// bend_of() a grid of the surface, next to what rays meet of it; infinite where it is not known.
     float bend_of(const ShadingGrid& grid) const;
-    /// How far from P the rays of a lane begin that leave at a time; `asked` below 0: the call does not say.
+    /// How near to P, at most, rays of a lane begin or end: what they meet of a surface there lies within it,
+    /// by the size of pixels at P. `asked` below 0: the call does not say.
+    float margin_at(const V3f& P, const RayLane& lane, float asked) const;
+    /// How far from P the rays of a lane begin that leave at a time; `asked` as above.
     LeftSurface left_at(const V3f& P, const RayLane& lane, float time, float asked) const;
     /// How far within its own grid the rays of a lane begin that is on an edge of the grid (inwards_at()).
     static V3f inwards(const RayLane& lane, const LeftSurface& left);

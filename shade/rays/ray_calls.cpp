@@ -265,8 +265,11 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<Wal
     const auto look_along = [&] {
         ray.segment.left = asker_.left_at(aim.P, asking, aim.time, arguments.bias.at(lane));
         ray.segment.max = arguments.max_distance_at(lane);
-        if (call.ends_at_point())
-            ray.segment.max = std::min(ray.segment.max, aim.length - ray.segment.left.most);
+        if (call.ends_at_point()) {
+            const V3f end = aim.P + aim.direction * aim.length;
+            ray.segment.max = std::min(ray.segment.max,
+                                       aim.length - asker_.margin_at(end, asking, arguments.bias.at(lane)));
+        }
         ray.segment.time = aim.time;
     };
     look_along();
