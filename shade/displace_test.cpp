@@ -173,6 +173,55 @@ struct MovingSurface : ShadingScene {
     }
 };
 
+/// A class of RSL 2 that shades and displaces.
+struct MovingClass : ShadingScene {
+    ShaderFolder folder;
+
+    MovingClass() {
+        folder.write("both",
+                     "class both(float Km = .5;) {"
+                     "  public void displacement(output point P; output normal N) { P += high(); }"
+                     "  private vector high() { return Km * s * normalize(N); }"
+                     "  public void surface(output color Ci, Oi) { Ci = color(comp(P, 2)); Oi = 1; }"
+                     "}");
+        scene.options.search_paths["shader"] = {folder.path()};
+        surface("both", {number("Km", 0.25f)});
+    }
+};
+
+TEST(Displacement, BySurfacesThatAreClassesWithinTheBound) {
+    MovingClass scene;
+    scene.attributes->displacement_bound = 0.5f;
+    const ShadingGrid before = scene.grid(), after = scene.shaded(before);
+    EXPECT_TRUE(scene.reported.empty());
+    for (size_t i = 0; i < before.vertex_count(); ++i) {
+        expect_near_triple(moved(after, before, i), V3f(0, 0, -0.25f * before.s[i]), 1e-6f);
+        EXPECT_EQ(after.Ci.at(i), V3f(after.P[0].at(i).z));  // it shades what has moved
+    }
+    EXPECT_TRUE(after.displaced);
+    EXPECT_TRUE(Shading(scene.context).displacing_surfaces()(0));
+}
+
+/// The request's own parameters hold, and nothing moves twice.
+TEST(Displacement, ByAClassThatIsNamedForItToo) {
+    for (const float bound : {0.0f, 0.5f}) {
+        MovingClass scene;
+        scene.attributes->displacement_bound = bound;
+        scene.displacement("both", {number("Km", 0.125f)});
+        const ShadingGrid before = scene.grid(), after = scene.shaded(before);
+        for (size_t i = 0; i < before.vertex_count(); ++i)
+            expect_near_triple(moved(after, before, i), V3f(0, 0, -0.125f * before.s[i]), 1e-6f);
+    }
+}
+
+TEST(Displacement, ByClassesWithoutABoundIsMissedAloud) {
+    MovingClass scene;
+    const ShadingGrid before = scene.grid(), after = scene.shaded(before);
+    for (size_t i = 0; i < before.vertex_count(); ++i) EXPECT_EQ(after.P[0].at(i), before.P[0].at(i));
+    ASSERT_EQ(scene.reported.size(), 1u);
+    EXPECT_NE(scene.reported[0].text.find("displacementbound"), std::string::npos);
+}
+
 TEST(Displacement, BySurfaceShadersWithinTheBound) {
     MovingSurface scene;
     scene.attributes->displacement_bound = 0.5f;

@@ -48,6 +48,19 @@ bool tells_vertices_apart(const Material& material) {
 /// Displacement beyond the bound by this factor is not reported: it is rounding.
 constexpr float kBoundTolerance = 1.0001f;
 
+/// Whether a shader leaves what is opaque as it is.
+bool leaves_opaque(const LayeredShader& shader) {
+    return std::ranges::all_of(shader.layers,
+                               [](const BoundShader* layer) { return keeps_opaque(layer->program()); });
+}
+
+/// Whether nothing shines through a primitive, whatever its surface shader does.
+bool is_opaque(const Primitive& primitive, const LayeredShader& surface) {
+    const bool own = primitive.attributes->opacity == V3f(1, 1, 1) &&
+                     (primitive.shape_keys.empty() || !primitive.shape().variables.find("Os"));
+    return own && leaves_opaque(surface);
+}
+
 }  // namespace
 
 struct ShadeScratch::State {
@@ -259,7 +272,8 @@ bool Shading::keeps_opacity(uint32_t primitive) const {
     using HitMode = RayAttributes::HitMode;
     return (rays.transmission_hits == HitMode::Primitive && rays.diffuse_hits != HitMode::Shader) ||
            std::ranges::none_of(material.surface->layers,
-                                [](const BoundShader* layer) { return changes_opacity(layer->program()); });
+                                [](const BoundShader* layer) { return changes_opacity(layer->program()); }) ||
+           is_opaque(impl_->context.scene->primitives[primitive], *material.surface);
 }
 
 bool Shading::may_stay_unshaded(uint32_t primitive) const {
@@ -277,15 +291,8 @@ bool Shading::may_ask_for_some(uint32_t primitive) const {
 
 bool Shading::hides_for_sure(uint32_t primitive) const {
     const Material& material = impl_->materials.of(primitive);
-    const auto keeps = [](const LayeredShader* shader) {
-        return !shader || std::ranges::all_of(shader->layers, [](const BoundShader* layer) {
-            return keeps_opaque(layer->program());
-        });
-    };
-    const Primitive& seen = impl_->context.scene->primitives[primitive];
-    return seen.attributes->opacity == V3f(1, 1, 1) &&
-           (seen.shape_keys.empty() || !seen.shape().variables.find("Os")) && keeps(material.surface) &&
-           keeps(material.atmosphere);
+    return is_opaque(impl_->context.scene->primitives[primitive], *material.surface) &&
+           (!material.atmosphere || leaves_opaque(*material.atmosphere));
 }
 
 bool Shading::can_be_parted(const ShadingGrid& grid) const {
@@ -328,7 +335,9 @@ FindDepthHeight Shading::depth_heights() const {
 }
 
 std::function<bool(uint32_t)> Shading::displacing_surfaces() const {
-    return [impl = impl_.get()](uint32_t primitive) { return impl->materials.of(primitive).surface_moves; };
+    return [impl = impl_.get()](uint32_t primitive) {
+        return impl->materials.of(primitive).surface_displaces();
+    };
 }
 
 void Shading::report_displacement_bounds() const {

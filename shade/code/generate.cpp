@@ -16,6 +16,7 @@ std::unique_ptr<Program> Generator::run() {
     program_ = std::make_unique<Program>();
     program_->kind = shader_.kind;
     program_->name = shader_.name;
+    program_->displaces = shader_.displaces;
     at_ = shader_.at;
     try {
         for (const auto& variable : shader_.globals) register_of(*variable);

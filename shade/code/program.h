@@ -84,6 +84,7 @@ struct Program {
     std::vector<ProgramParameter> parameters;
     Code code;
     bool directional = false;  ///< a light with illuminate or solar; without, it is ambient
+    bool displaces = false;    ///< there is a displacement shader of the same name that belongs to it
 
     const Register& reg(RegisterId id) const { return registers[id]; }
     /// A predefined variable's register, if the program names it.

@@ -53,6 +53,15 @@ void Materials::add(const Attributes& attributes, const Names& varying) {
         material.displacement = layered(*attributes.displacement, rsl::ShaderKind::Displacement, varying);
         if (!material.displacement)
             report_missing("Displacement", *attributes.displacement, "nothing is displaced");
+    } else if (attributes.surface && material.surface->last().program().displaces) {
+        // As where a surface moves P: without a bound it stays.
+        if (attributes.displacement_bound > 0)
+            material.displacement = layered(*attributes.surface, rsl::ShaderKind::Displacement, varying);
+        else if (diagnostics_)
+            diagnostics_->warning(attributes.surface->location,
+                                  "\"" + attributes.surface->name +
+                                      "\" displaces where Attribute \"displacementbound\" says how far: here "
+                                      "it does not");
     }
     material.atmosphere = volume("Atmosphere", attributes.atmosphere.get(), varying);
     // They run on other primitives, which do not have the variables of this one.
@@ -87,7 +96,7 @@ const LayeredShader* Materials::volume(const char* request, const ShaderInstance
 /// not found is reported and left out.
 const LayeredShader* Materials::layered(const ShaderInstance& instance, rsl::ShaderKind kind,
                                         const Names& varying) {
-    const auto [at, is_new] = shaders_.try_emplace({&instance, varying});
+    const auto [at, is_new] = shaders_.try_emplace({&instance, kind, varying});
     if (!is_new) return at->second.layers.empty() ? nullptr : &at->second;
     std::vector<const BoundShader*> layers;
     for (const auto& earlier : instance.earlier_layers) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -34,6 +35,8 @@ struct Material {
     /// Whether the surface shader sets P without effect: there is no displacement bound, and no displacement
     /// shader whose reach would be reported instead. The surface stays, with a warning.
     bool surface_only_sets_P = false;
+    /// Whether the surface shader displaces: itself, or as a class that is a displacement shader, too.
+    bool surface_displaces() const { return surface_moves || (displacement && !attributes->displacement); }
     bool shades_vertices_apart = false;  ///< as of shades_vertices_apart() in grid_parts.h
     std::vector<const Lamp*> lights;     ///< those that shine on the primitive
     /// Without area lights: for hits of which the opacity alone is wanted, that of shadows of area lights.
@@ -76,7 +79,7 @@ class Materials {
     Diagnostics* diagnostics_;
     ShaderLibrary library_;
     ShaderInstance default_instance_;
-    using Key = std::pair<const ShaderInstance*, Names>;
+    using Key = std::tuple<const ShaderInstance*, rsl::ShaderKind, Names>;
     std::map<Key, LayeredShader> shaders_;  ///< without layers: there is no such shader
     std::deque<BoundShader> layers_;  ///< a deque, since others point to its elements; as all deques here
     std::deque<ShaderInstance> stand_ins_;  ///< of lights whose shaders are not found, or stand elsewhere

@@ -51,8 +51,9 @@ rsl::Source ShaderLibrary::source_named(const std::string& name) const {
     return {standard + ".sl", std::string(text)};
 }
 
-ShaderLibrary::Compiled& ShaderLibrary::compiled(const std::string& name, SourceLocation asked_at) {
-    std::unique_ptr<Compiled>& entry = shaders_[name];
+ShaderLibrary::Compiled& ShaderLibrary::compiled(const std::string& name, rsl::ShaderKind kind,
+                                                 SourceLocation asked_at) {
+    std::unique_ptr<Compiled>& entry = shaders_[{name, kind}];
     if (entry) return *entry;
     entry = std::make_unique<Compiled>();
     Diagnostics& diagnostics = diagnostics_ ? *diagnostics_ : silent_;
@@ -81,7 +82,7 @@ ShaderLibrary::Compiled& ShaderLibrary::compiled(const std::string& name, Source
     options.carried_file = standard_header;
     if (access_.is_confined())
         options.read_file = [this](const std::string& path) { return file_text(path); };
-    entry->program = vm::compile_program(source, options, diagnostics, stem);
+    entry->program = vm::compile_program(source, options, diagnostics, stem, kind);
     if (!entry->program) {
         diagnostics.error(asked_at, fmt::format("shader \"{}\" has errors and is not used", name));
         reported_.insert(name);
@@ -92,7 +93,7 @@ ShaderLibrary::Compiled& ShaderLibrary::compiled(const std::string& name, Source
 std::shared_ptr<const vm::Executable> ShaderLibrary::find(std::string_view name, rsl::ShaderKind kind,
                                                           const std::set<std::string>& varying,
                                                           SourceLocation asked_at) {
-    Compiled& shader = compiled(std::string(name), asked_at);
+    Compiled& shader = compiled(std::string(name), kind, asked_at);
     if (!shader.program) return nullptr;
     if (shader.program->kind != kind) {
         reported_.insert(std::string(name));

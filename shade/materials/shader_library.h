@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/diagnostics.h"
@@ -42,14 +43,14 @@ class ShaderLibrary {
     struct Compiled;
     std::optional<std::string> file_text(const std::string& path) const;
     rsl::Source source_named(const std::string& name) const;
-    Compiled& compiled(const std::string& name, SourceLocation asked_at);
+    Compiled& compiled(const std::string& name, rsl::ShaderKind kind, SourceLocation asked_at);
 
     std::vector<std::string> folders_;
     const Access& access_;
     Diagnostics* diagnostics_;
     Diagnostics silent_;
-    /// Shaders by the name that was asked for; also those that are not there or have errors.
-    std::map<std::string, std::unique_ptr<Compiled>, std::less<>> shaders_;
+    /// Shaders by the name and kind that were asked for; also those that are not there or have errors.
+    std::map<std::pair<std::string, rsl::ShaderKind>, std::unique_ptr<Compiled>> shaders_;
     std::set<std::string, std::less<>> reported_;  ///< names for which an error has been reported
 };
 

@@ -9,12 +9,14 @@ namespace trapeze::vm {
 /// shader in them, and some hold it under another name.
 std::unique_ptr<rsl::Program> compile_program(const rsl::Source& source, const rsl::CompileOptions& options,
                                               Diagnostics& diagnostics, std::string_view name,
+                                              std::optional<rsl::ShaderKind> kind,
                                               const rsl::OptimiseOptions& optimiser) {
     const auto unit = rsl::compile_front(source, options, diagnostics);
     if (!unit || unit->shaders.empty()) return nullptr;
     const rsl::Shader* shader = unit->shaders.front().get();
     for (const auto& candidate : unit->shaders)
-        if (candidate->name == name) shader = candidate.get();
+        if (candidate->name == name && (shader->name != name || candidate->kind == kind))
+            shader = candidate.get();
     return compile_program(*shader, diagnostics, optimiser);
 }
 
@@ -38,7 +40,7 @@ std::shared_ptr<const Executable> lay_out(rsl::Program program, const std::set<s
 std::shared_ptr<const Executable> compile_shader(const rsl::Source& source,
                                                  const rsl::CompileOptions& options, Diagnostics& diagnostics,
                                                  const rsl::OptimiseOptions& optimiser) {
-    std::unique_ptr<rsl::Program> program = compile_program(source, options, diagnostics, {}, optimiser);
+    std::unique_ptr<rsl::Program> program = compile_program(source, options, diagnostics, {}, {}, optimiser);
     return program ? lay_out(std::move(*program)) : nullptr;
 }
 

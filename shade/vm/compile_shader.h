@@ -11,6 +11,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -22,10 +23,12 @@
 
 namespace trapeze::vm {
 
-/// The program of a shader in a source: of the one named so, or of the first. Null, and all errors reported,
+/// The program of a shader in a source: of the one named so, of the wanted kind where there are two (a class
+/// of RSL 2), or of the first. Null, and all errors reported,
 /// when the source has errors or the shader is too large; null without a word when there is no shader in it.
 std::unique_ptr<rsl::Program> compile_program(const rsl::Source& source, const rsl::CompileOptions& options,
                                               Diagnostics& diagnostics, std::string_view name = {},
+                                              std::optional<rsl::ShaderKind> kind = {},
                                               const rsl::OptimiseOptions& optimiser = {});
 
 /// The program of a shader that has been parsed and analysed. Null, and reported, when it is too large.

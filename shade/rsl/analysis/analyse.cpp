@@ -54,11 +54,12 @@ void Analyser::run() {
         if (same_name.size() > kMostOverloads)
             return error(function->at, "too many functions are called " + in_quotes(function->name));
     }
-    // Two shaders of one name: a scene could not say which it means.
-    std::set<std::string_view> names;
+    // Two shaders of one name: a scene could not say which it means. Of a class it says by where it names it.
+    std::set<std::pair<std::string_view, int>> names;
     for (const auto& shader : unit_.shaders) {
         if (reporter_.full()) return;
-        if (!names.insert(shader->name).second)
+        const int kind = shader->of_class ? static_cast<int>(shader->kind) : -1;
+        if (!names.emplace(shader->name, kind).second)
             error(shader->at, "there are two shaders " + in_quotes(shader->name) + " in this file");
         analyse_shader(*shader);
     }

@@ -168,6 +168,8 @@ struct Shader {
     StatementPtr body;
     /// The predefined variables that it names (P, N, Ci, ...), made by the analysis.
     std::vector<std::unique_ptr<Variable>> globals;
+    bool of_class = false;   ///< of RSL 2, which may make two shaders of one name
+    bool displaces = false;  ///< its class is a displacement shader of the same name, too
     SourceLocation at;
 };
 

@@ -37,7 +37,7 @@ std::unique_ptr<TranslationUnit> Parser::unit() {
         while (!at_end() && !reporter_.full()) {
             try {
                 if (accept(";") || skip_plugin()) continue;
-                refuse_rsl2();
+                if (!at_class()) refuse_rsl2();
                 definition();
             } catch (const Lost&) {
                 skip_definition();
@@ -159,18 +159,16 @@ bool Parser::skip_plugin() {
 /// What RenderMan's second shading language adds is said to be missing once. Words that RSL 2 reserves are
 /// names in RSL 1: each is taken for RSL 2 only where what follows could be nothing else.
 void Parser::refuse_rsl2() {
-    const bool class_ =
-        at("class") && ahead(1).kind == Token::Kind::Name && (ahead(2).is("(") || ahead(2).is("{"));
     const bool struct_ = at("struct") && ahead(1).kind == Token::Kind::Name && ahead(2).is("{");
     const bool plugin = at("plugin") && ahead(1).kind == Token::Kind::Text;
     const bool public_ = (at("public") || at("method") || at("constant") || at("private")) &&
                          ahead(1).kind == Token::Kind::Name && !ahead(1).is("=") && !ahead(2).is(".");
     const bool handle = at("shader") && ahead(1).kind == Token::Kind::Name;
     const bool member = at("->") || at("::");
-    if (!class_ && !struct_ && !plugin && !public_ && !handle && !member) return;
+    if (!at_class() && !struct_ && !plugin && !public_ && !handle && !member) return;
     reporter_.error(now().at, shown(now()) +
-                                  " belongs to RSL 2 (structs, classes, co-shaders, plugins), "
-                                  "which is not supported: shaders are written in RSL 1 here");
+                                  " belongs to RSL 2, of which classes that are shaders are "
+                                  "supported, but no structs, co-shaders and plugins");
     throw Hopeless();
 }
 
@@ -179,6 +177,7 @@ void Parser::refuse_rsl2() {
 /// A shader or a function, which are told apart by what stands before the first parenthesis. A function's
 /// type may be left out, and words may stand before it, so that no single word tells the two apart.
 void Parser::definition() {
+    if (at_class()) return class_definition();
     if (shader_kind_named(now().text) && ahead(1).kind == Token::Kind::Name && ahead(2).is("("))
         return shader();
     if (at("transformation") && ahead(1).kind == Token::Kind::Name)

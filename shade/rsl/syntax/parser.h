@@ -16,7 +16,8 @@ namespace trapeze::rsl {
 /// reporter.failed() is false.
 std::unique_ptr<TranslationUnit> parse_tokens(const TokenStream& stream, Reporter& reporter);
 
-/// The parser's state. parser.cpp has definitions, parse_statements.cpp and parse_expressions.cpp the rest. A
+/// The parser's state. parser.cpp has definitions, parse_classes.cpp, parse_statements.cpp and
+/// parse_expressions.cpp the rest. A
 /// token is looked at as often as it takes and taken once; there is no going back but in at_...() and
 /// definition(), which look ahead by index. Functions named for a rule read that rule from now() on, and
 /// leave the token behind it as the next.
@@ -38,6 +39,7 @@ class Parser {
     };
     /// Bounds the recursion: see below.
     class Nesting;
+    struct ClassParts;
 
     // Tokens.
     /// The End is the last of tokens_ and is never passed, so that now() and ahead() always have a token.
@@ -77,6 +79,15 @@ class Parser {
     ExpressionPtr initial_value();
     /// Lengths of arrays are needed while parsing, before there is an analysis to fold constants.
     static bool constant_value(const Expression& e, double& value);
+
+    // Classes: parse_classes.cpp.
+    bool at_class() const;
+    void class_definition();
+    ClassParts class_parts();
+    void class_member(ClassParts& parts);
+    void class_method(ClassParts& parts);
+    void place_method(ClassParts& parts, size_t number, int depth, std::vector<StatementPtr>& to);
+    std::unique_ptr<Shader> shader_of(ClassParts parts, ShaderKind kind);
 
     // Statements: parse_statements.cpp. statement() is the one entry, and counts the nesting.
     StatementPtr statement();
