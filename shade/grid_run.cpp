@@ -177,13 +177,16 @@ Task<> GridRun::split_light(const AovLayout& aovs) {
 }
 
 Task<GridRun::Layers> GridRun::run_surface() {
+    // What is seen through a medium, and what others ask of it, may be any of its variables.
+    const bool part = grids_.front()->for_opacity && material_.surface_opacity && !volume();
+    const LayeredShader& shader = part ? *material_.surface_opacity : *material_.surface;
     // What the first layer does not name stays as the primitive has it; the rest is taken from the registers.
-    const rsl::Program& first = material_.surface->layers.front()->program();
+    const rsl::Program& first = shader.layers.front()->program();
     for (ShadingGrid* grid : grids_) {
         if (!first.find_global("Ci")) grid->Ci = grid->Cs;
         if (!first.find_global("Oi")) grid->Oi = grid->Os;
     }
-    co_return co_await color(*material_.surface, false, messages_.surface);
+    co_return co_await color(shader, false, messages_.surface);
 }
 
 Task<vm::Registers*> GridRun::run_layer(const LayeredShader& shader, size_t layer,

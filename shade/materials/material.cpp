@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "shade/code/slice_code.h"
 #include "shade/materials/grid_parts.h"
 #include "shade/materials/grid_shader.h"
 #include "shade/materials/stand_in_light.h"
@@ -72,6 +73,7 @@ void Materials::add(const Attributes& attributes, const Names& varying) {
     });
     // Without a bound the surface stays: many surface shaders use P as just another point.
     material.surface_moves = sets_P && attributes.displacement_bound > 0;
+    if (!material.surface_moves) material.surface_opacity = opacity_of(*material.surface);
     material.surface_only_sets_P = sets_P && !material.surface_moves && !material.displacement;
     for (const LayeredShader* shader : {material.surface, material.displacement, material.atmosphere})
         material.asks_object_space |= shader && shader->asks_object_space();
@@ -128,6 +130,31 @@ const LayeredShader* Materials::surface(const ShaderInstance* instance, const Na
     if (const LayeredShader* found = layered(*instance, rsl::ShaderKind::Surface, varying)) return found;
     report_missing("Surface", *instance, "defaultsurface is used");
     return layered(default_instance_, rsl::ShaderKind::Surface, varying);
+}
+
+size_t Materials::endless_count() const {
+    return library_.endless_count() +
+           static_cast<size_t>(std::ranges::count_if(opacities_, [](const auto& of) {
+               return of.second && of.second->last().executable()->is_endless();
+           }));
+}
+
+/// Lights that only colour what is seen need not shine on it, nor send the rays of their shadows.
+const LayeredShader* Materials::opacity_of(const LayeredShader& surface) {
+    const auto [at, is_new] = opacities_.try_emplace(&surface);
+    std::optional<LayeredShader>& part = at->second;
+    if (is_new && surface.layers.size() == 1) {
+        const BoundShader& whole = surface.last();
+        rsl::Program program = rsl::slice(whole.program(), "Oi");
+        if (program.code.size() < whole.program().code.size()) {
+            const SceneSpaces spaces(*context_.scene, context_.camera, &whole.instance(), nullptr);
+            const BoundShader& bound =
+                layers_.emplace_back(std::make_shared<const vm::Executable>(std::move(program)),
+                                     whole.instance(), spaces, nullptr);
+            part = make_layered(whole.instance(), {&bound}, nullptr);
+        }
+    }
+    return part ? &*part : nullptr;
 }
 
 const Lamp* Materials::lamp(const LightInstance& instance) {

@@ -5,6 +5,7 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <unordered_map>
@@ -23,6 +24,8 @@ namespace trapeze {
 struct Material {
     const Attributes* attributes = nullptr;
     const LayeredShader* surface = nullptr;
+    /// The part of the surface shader that opacity takes, for rays that want no more; null where that is all.
+    const LayeredShader* surface_opacity = nullptr;
     const LayeredShader* displacement = nullptr;  ///< may be null
     const LayeredShader* atmosphere = nullptr;    ///< may be null
     /// Of what rays go through that leave the surface for its inside, or its outside; may be null.
@@ -61,7 +64,7 @@ class Materials {
     /// Every light that shines on a primitive.
     const std::vector<Lamp*>& lamps() const { return lamp_order_; }
     /// How many shaders have turned out to have loops without an end.
-    size_t endless_count() const { return library_.endless_count(); }
+    size_t endless_count() const;
 
   private:
     using Names = std::set<std::string>;
@@ -71,6 +74,7 @@ class Materials {
                              std::span<const std::string> connected);
     const LayeredShader* volume(const char* request, const ShaderInstance* instance, const Names& varying);
     const LayeredShader* surface(const ShaderInstance* instance, const Names& varying);
+    const LayeredShader* opacity_of(const LayeredShader& surface);
     const Lamp* lamp(const LightInstance& instance);
     const ShaderInstance* in_the_middle(const LightInstance& instance, const ShaderInstance& shader);
     void report_missing(std::string_view request, const ShaderInstance& instance, std::string_view instead);
@@ -81,6 +85,7 @@ class Materials {
     ShaderInstance default_instance_;
     using Key = std::tuple<const ShaderInstance*, rsl::ShaderKind, Names>;
     std::map<Key, LayeredShader> shaders_;  ///< without layers: there is no such shader
+    std::map<const LayeredShader*, std::optional<LayeredShader>> opacities_;  ///< nothing: it takes all
     std::deque<BoundShader> layers_;  ///< a deque, since others point to its elements; as all deques here
     std::deque<ShaderInstance> stand_ins_;  ///< of lights whose shaders are not found, or stand elsewhere
     std::unordered_map<const LightInstance*, std::unique_ptr<Lamp>> lamps_;

@@ -16,6 +16,7 @@
 #include <string>
 
 #include "shade/code/blocks.h"
+#include "shade/code/slice_code.h"
 #include "shade/operations/op_table.h"
 #include "shade/vm/compile_shader.h"
 #include "shade/vm/machine.h"
@@ -180,10 +181,16 @@ void run_both(const rsl::Shader& shader, Diagnostics& diagnostics) {
     const std::unique_ptr<rsl::Program> program =
         compile_program(shader, diagnostics, rsl::OptimiseOptions::none());
     if (!program || program->code.size() > kMostInstructions) return;
-    Side plain(*program), quick(*compile_program(shader, diagnostics));
+    const std::unique_ptr<rsl::Program> optimised = compile_program(shader, diagnostics);
+    Side plain(*program), quick(*optimised), opacity(rsl::slice(*optimised, "Oi"));
     if (!plain.fits() || !quick.fits()) return;
     const bool plain_ended = plain.run(), quick_ended = quick.run();
     if (!plain_ended || !quick_ended || looks_aside(plain.program())) return;
+    const rsl::RegisterId *const whole_Oi = plain.program().find_global("Oi"), *const part_Oi =
+                                                                                   opacity.program()
+                                                                                       .find_global("Oi");
+    if (whole_Oi && part_Oi && (!opacity.run() || !same_register(plain, opacity, *whole_Oi, *part_Oi)))
+        std::abort();
     for (size_t i = 0; i < plain.program().parameters.size(); ++i)
         if (!same_register(plain, quick, plain.program().parameters[i].id, quick.program().parameters[i].id))
             std::abort();

@@ -12,13 +12,14 @@ constexpr uint64_t kRows = 4 * 17, kVertices = kRows * kRows;
 constexpr uint64_t kLeft = kRows * (2 * 17 + 1);
 
 /// Of a square below a wall that sends two rays of transmission from each hit that is shaded.
-FrameStats stats_of(const std::string& body, int threads) {
+FrameStats stats_of(const std::string& body, int threads, const std::string& opacity = "Os") {
     const WorkFolder folder;
     folder.write("ask.sl", "surface ask() { vector up = vector(0, 0, -1); " + body + " Oi = 1; }");
     folder.write(
         "wall.sl",
         "surface wall() { Ci = transmission(P, P + vector(0, 0, 9), \"samples\", 2, \"samplecone\", .1);"
-        "Oi = Os; Ci *= Oi; }");
+        "Oi = " +
+            opacity + "; Ci *= Oi; }");
     folder.write("a.rib", kPicture + "Option \"searchpath\" \"string shader\" [\"" + folder.path().string() +
                               "\"] WorldBegin AttributeBegin " + kHidden + kSeen + "Surface \"wall\" " +
                               wall("0") +
@@ -61,6 +62,27 @@ TEST(RayCounts, AreWhatShadersAskForHoweverManyThreads) {
             EXPECT_EQ(stats.shaded_vertices, kVertices + 4 * one.points * one.shaded_hits)
                 << "a hit is a micropolygon";
         }
+}
+
+/// Their colours, which would send rays, are not wanted.
+TEST(RayCounts, OpacityIsAllThatRunsWhereItIsAllThatIsWanted) {
+    const std::string asks = "Ci = transmission(P, P + 9 * up, \"samples\", 5, \"samplecone\", .1);";
+    const ShadeStats stats = stats_of(asks, 2, "Os * (.5 + .25 * s)").shade;
+    EXPECT_EQ(stats.rays.shaded_hits, kVertices * 5);
+    EXPECT_EQ(stats.rays.transmission, kVertices * 5);
+    // What follows from rays takes them.
+    const ShadeStats seen = stats_of(asks, 2, "Os * (.5 + .25 * comp(Ci, 0))").shade;
+    EXPECT_EQ(seen.rays.transmission, kVertices * (5 + 5 * 2));
+}
+
+/// One that is opaque, and says so, is not asked at all.
+TEST(RayCounts, WhatIsOpaqueIsNotAsked) {
+    const std::string asks = "Ci = transmission(P, P + 9 * up, \"samples\", 5, \"samplecone\", .1);";
+    for (const char* opaque : {"1", "color(1, 1, 1)", "Os"}) {
+        const ShadeStats stats = stats_of(asks, 2, opaque).shade;
+        EXPECT_EQ(stats.rays.shaded_hits, 0u) << opaque;
+        EXPECT_EQ(stats.rays.transmission, kVertices * 5) << opaque;
+    }
 }
 
 }  // namespace
