@@ -4,7 +4,9 @@
 #include <cmath>
 #include <complex>
 #include <fstream>
+#include <map>
 
+#include "sample/every_method_harness.h"
 #include "tests/program_harness.h"
 #include "tests/scene_harness.h"
 
@@ -42,20 +44,18 @@ constexpr double kHalf = 1.79;
 
 /// A small square of brightness 1000 at `depth` before the middle of 48 x 48 pixels. The lens has radius .6,
 /// and is in focus at 4.
-Blur render_blur(const std::string& aperture, double depth, const std::string& method = "raytrace",
-                 int threads = 2) {
+Blur render_blur(const std::string& aperture, double depth, const RenderSettings& settings = {},
+                 int threads = 2, int samples = 32) {
     const WorkFolder folder;  // tests run side by side
     const std::string path = (folder / "lens_blades.rib").string();
     const double half = .01 * depth;
     std::ofstream(path)
-        << "Display \"x\" \"exr\" \"rgba\" Format 48 48 1 PixelSamples 32 32 "
-           "PixelFilter \"box\" 1 1 Projection \"perspective\" \"fov\" [30] ScreenWindow -.5 .5 -.5 .5 "
+        << "Display \"x\" \"exr\" \"rgba\" Format 48 48 1 PixelSamples " << samples << ' ' << samples
+        << " PixelFilter \"box\" 1 1 Projection \"perspective\" \"fov\" [30] ScreenWindow -.5 .5 -.5 .5 "
            "DepthOfField 1 1.2 4 Hider \"hidden\" \"float[4] aperture\" ["
         << aperture << "] WorldBegin Surface \"constant\" Color 1000 1000 1000 Translate 0 0 " << depth
         << " Polygon \"P\" [" << -half << " " << -half << " 0 " << half << " " << -half << " 0 " << half
         << " " << half << " 0 " << -half << " " << half << " 0] WorldEnd\n";
-    RenderSettings settings;
-    settings.sampler = method;
     return Blur(render_scene(path, settings, threads).at(0).image);
 }
 
@@ -110,13 +110,32 @@ TEST(LensBlades, DensityMovesLightToTheRimOrTheMiddle) {
     EXPECT_NEAR(spread("-1") / even, 2. / 3, .02);
 }
 
+/// Each form of every method with its own pattern, and each method with all patterns that it honours: as
+/// brute force with that pattern.
 TEST(LensBlades, AreTheSameForEveryMethodAndAnyThreads) {
-    const auto same = [](const Blur& a, const Blur& b) { return a.points == b.points; };
     const std::string star = "5 36 -.8 .7";
-    const Blur blur = render_blur(star, 9);
-    for (const char* method : {"bruteforce", "raytrace:tree=paper", "interval:pairing=shuffled", "dualspace"})
-        EXPECT_TRUE(same(render_blur(star, 9, method), blur)) << method;
-    EXPECT_TRUE(same(render_blur(star, 9, "raytrace", 7), blur));
+    const auto points = [&](const std::string& method, const std::string& pattern, int threads = 2) {
+        RenderSettings settings;
+        settings.sampler = method, settings.pattern = pattern;
+        return render_blur(star, 9, settings, threads, 8).points;
+    };
+    std::map<std::string, decltype(Blur::points)> expected;
+    const std::vector<MethodForm> forms = every_method();
+    for (const MethodForm& form : forms)
+        if (!expected.contains(form.pattern)) expected[form.pattern] = points("bruteforce", form.pattern);
+    EXPECT_GE(expected.size(), sample_patterns().size());
+    for (const MethodForm& form : forms)
+        EXPECT_TRUE(points(form.name, form.pattern) == expected[form.pattern]) << form.name;
+    for (const auto& [pattern, lit] : expected) {
+        EXPECT_GT(lit.size(), 100u) << pattern;
+        EXPECT_TRUE(points("raytrace", pattern, 7) == lit) << pattern;
+        for (const VisibilityMethod& method : visibility_methods()) {
+            const std::string name(method.name);
+            std::string error;
+            if (!method.is_exact || !choose_sampler(name, pattern, &error)) continue;
+            EXPECT_TRUE(points(name, pattern) == lit) << name << ' ' << pattern;
+        }
+    }
 }
 
 }  // namespace
