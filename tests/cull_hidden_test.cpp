@@ -1,6 +1,7 @@
 /// What no sample sees stays unshaded, and the picture is the same bits.
 #include <gtest/gtest.h>
 
+#include "sample/every_method_harness.h"
 #include "tests/program_harness.h"
 #include "tests/scene_harness.h"
 
@@ -84,6 +85,35 @@ TEST(CullHidden, BlurUncovers) {
     const FrameStats stats = culled(blur + "WorldBegin " + kLight + "Surface \"matte\" TransformBegin " +
                                     moving + kWall + "TransformEnd Color 0 1 0 " + kBall + "WorldEnd\n");
     EXPECT_GT(stats.shade.shaded_vertices, 100u);
+}
+
+/// Every method of the table, also those whose hits are not brute force's: behind what is opaque in part, is
+/// half transparent in part, moves, and is out of focus.
+TEST(CullHidden, IsTheSamePictureByEveryMethod) {
+    const WorkFolder folder;
+    folder.write("holes.sl", "surface holes() { Oi = mod(s * 9, 1) < .5 ? 1 : 0; Ci = Oi * Cs; }");
+    const std::string front =
+        "Surface \"matte\" Color 0 0 1 Patch \"bilinear\" \"P\" [-9 .5 3 -.2 .5 3 -9 -9 3 -.2 -9 3] "
+        "Opacity .5 .7 .5 Color 1 1 0 Patch \"bilinear\" \"P\" [-.4 .3 2.8 9 .3 2.8 -.4 -9 2.8 9 -9 2.8] "
+        "Opacity 1 1 1 AttributeBegin Surface \"holes\" MotionBegin [0 1] Translate 0 0 0 Translate .4 .2 0 "
+        "MotionEnd Patch \"bilinear\" \"P\" [-.3 1 3.2 .6 1 3.2 -.3 .6 3.2 .6 .6 3.2] AttributeEnd ";
+    folder.write("a.rib", "Option \"searchpath\" \"string shader\" [\"" + folder.path().string() +
+                              ":&\"] Display \"x\" \"exr\" \"rgba\" Format 32 24 1 PixelSamples 2 2 "
+                              "Projection \"perspective\" \"fov\" 40 Shutter 0 1 DepthOfField 4 .5 4 "
+                              "WorldBegin " +
+                              kLight + front + "Surface \"matte\" ShadingRate .3 Color 0 1 0 " + kBall +
+                              "WorldEnd\n");
+    for (const MethodForm& form : every_method({.exact_only = false, .few_numbers = true})) {
+        SCOPED_TRACE(form.name);
+        RenderSettings settings = culling(CullHidden::Off);
+        settings.sampler = form.name, settings.regions_at_least = 2;
+        const auto whole = render_scene((folder / "a.rib").string(), settings);
+        settings.cull_hidden = CullHidden::On;
+        const auto part = render_scene((folder / "a.rib").string(), settings);
+        EXPECT_TRUE(same_bits(whole[0].image, part[0].image));
+        EXPECT_GT(part[0].stats.unshaded_vertices, 500u);
+        EXPECT_GT(part[0].stats.shade.shaded_vertices, 500u);
+    }
 }
 
 /// A wall hides only what shaders cannot let through: by opacity, by a shader that sets it, by an atmosphere.
