@@ -15,13 +15,17 @@ namespace trapeze {
 /// Behind every hit in the order of in_front().
 inline constexpr Hit kNoHit{std::numeric_limits<float>::infinity(), MicropolygonId::kNone};
 
+/// In front of every hit.
+inline constexpr Hit kFirstHit{-std::numeric_limits<float>::infinity(), 0};
+
 /// The nearest hit, opaque or not; of equal depths the one of the smaller id.
 struct ClosestHit {
     Hit best = kNoHit;
+    Hit from = kFirstHit;  ///< hits in front of it do not count
 
     bool found() const { return best.id != MicropolygonId::kNone; }
     void consider(const Hit& hit, bool, TraceRay& ray) {
-        if (!in_front(hit, best)) return;
+        if (!in_front(hit, best) || in_front(hit, from)) return;
         best = hit;
         ray.t_max = hit.depth;
     }

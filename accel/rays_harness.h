@@ -55,10 +55,10 @@ inline void add_torus(GridMaker& maker, int keys, const V3f& middle = V3f(0), bo
         }
 }
 
-/// The truth, for rays in any direction: the nearest hit by testing every micropolygon, without any bound.
-inline Hit closest_naively(const Grids& grids, const SpaceRay& ray, DepthRange range) {
+/// Calls see(hit) for every micropolygon that a ray of any direction hits, without any bound.
+template <class See>
+void for_each_hit_naively(const Grids& grids, const SpaceRay& ray, DepthRange range, const See& see) {
     const TurnedRay turned = axis_ray(ray);
-    Hit best = kNoHit;
     for (size_t g = 0; g < grids.grids.size(); ++g) {
         const Grid& grid = grids.grids[g];
         for (int v = 0; v < grid.shape.nv; ++v)
@@ -69,9 +69,17 @@ inline Hit closest_naively(const Grids& grids, const SpaceRay& ray, DepthRange r
                 const MicropolygonId id{static_cast<uint32_t>(g), static_cast<uint8_t>(u),
                                         static_cast<uint8_t>(v)};
                 const Hit hit{(z - turned.ray.oz) * turned.depth_sign, id.packed()};
-                if (hit.depth >= range.min && hit.depth <= range.max && in_front(hit, best)) best = hit;
+                if (hit.depth >= range.min && hit.depth <= range.max) see(hit);
             }
     }
+}
+
+/// The truth: the nearest of these.
+inline Hit closest_naively(const Grids& grids, const SpaceRay& ray, DepthRange range) {
+    Hit best = kNoHit;
+    for_each_hit_naively(grids, ray, range, [&](const Hit& hit) {
+        if (in_front(hit, best)) best = hit;
+    });
     return best;
 }
 

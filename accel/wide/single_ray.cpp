@@ -277,8 +277,9 @@ HWY_INLINE Policy traced(const Query& query, Counts counts, Policy policy = {}) 
     return policy;
 }
 
-ClosestHit trace_closest(const Query& query, SingleRayCounts* counts) {
-    return counts ? traced<ClosestHit>(query, CountAll{*counts}) : traced<ClosestHit>(query, CountNothing());
+ClosestHit trace_closest(const Query& query, const Hit& from, SingleRayCounts* counts) {
+    const ClosestHit policy{.from = from};
+    return counts ? traced(query, CountAll{*counts}, policy) : traced(query, CountNothing(), policy);
 }
 FirstOpaque trace_opaque(const Query& query, float near) {
     return traced(query, CountNothing(), FirstOpaque{.near = near});
@@ -306,15 +307,25 @@ bool has_numbers(const TraceRay& ray) {
            !std::isnan(a.oz) && !std::isnan(a.time);
 }
 
+std::optional<Hit> closest(const WideTree& tree, const SpaceRay& ray, DepthRange range, const Hit& from,
+                           SingleRayCounts* counts) {
+    TraceRay trace_ray = TraceRay::turned(axis_ray(ray), range);
+    if (!has_numbers(trace_ray)) return {};
+    const ClosestHit hit = HWY_DYNAMIC_DISPATCH(trace_closest)({tree, trace_ray}, from, counts);
+    if (!hit.found()) return {};
+    return hit.best;
+}
+
 }  // namespace
 
 std::optional<Hit> closest_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range,
                                SingleRayCounts* counts) {
-    TraceRay trace_ray = TraceRay::turned(axis_ray(ray), range);
-    if (!has_numbers(trace_ray)) return {};
-    const ClosestHit hit = HWY_DYNAMIC_DISPATCH(trace_closest)({tree, trace_ray}, counts);
-    if (!hit.found()) return {};
-    return hit.best;
+    return closest(tree, ray, range, kFirstHit, counts);
+}
+
+std::optional<Hit> closest_hit_from(const WideTree& tree, const SpaceRay& ray, DepthRange range,
+                                    const Hit& from) {
+    return closest(tree, ray, range, from, nullptr);
 }
 
 bool any_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range, SingleRayCounts* counts) {

@@ -18,6 +18,9 @@ struct SingleRayCounts {
 /// What RayQuery::closest() and any() say. `counts`, unless null, is added to.
 std::optional<Hit> closest_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range,
                                SingleRayCounts* counts = nullptr);
+/// WideTree::closest_from().
+std::optional<Hit> closest_hit_from(const WideTree& tree, const SpaceRay& ray, DepthRange range,
+                                    const Hit& from);
 bool any_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range, SingleRayCounts* counts = nullptr);
 /// WideTree::in_the_way().
 InTheWay opaque_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range, float near);

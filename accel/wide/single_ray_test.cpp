@@ -108,6 +108,37 @@ TEST(SingleRay, EqualsItsScalarTwin) {
     }
 }
 
+/// From each hit to the next, however many are as deep: what is there twice is met twice.
+TEST(SingleRay, GoesOnFromHitToHit) {
+    GridMaker maker;
+    for (int copy = 0; copy < 2; ++copy) {
+        Noise again;
+        testing::add_sheets(maker, 40, 2, again);
+    }
+    const WideTree tree(maker.grids(), {});
+    Noise noise;
+    size_t most = 0;
+    for (const auto& [ray, range] : queries_around(V3f(0), 5, 600, noise)) {
+        std::vector<Hit> truth;
+        testing::for_each_hit_naively(maker.grids(), ray, range,
+                                      [&](const Hit& hit) { truth.push_back(hit); });
+        std::sort(truth.begin(), truth.end(), in_front);
+        most = std::max(most, truth.size());
+        for_each_target([&] {
+            std::vector<Hit> found;
+            Hit from = kFirstHit;
+            DepthRange rest = range;
+            while (const std::optional<Hit> hit = tree.closest_from(ray, rest, from)) {
+                found.push_back(*hit);
+                rest.min = hit->depth, from = {hit->depth, hit->id + 1};
+                ASSERT_LE(found.size(), truth.size());
+            }
+            ASSERT_EQ(found, truth);
+        });
+    }
+    EXPECT_GE(most, 8u);
+}
+
 /// Layers are what is hit where no opaque grid is, wherever along the ray.
 TEST(SingleRay, TellsWhatIsInTheWay) {
     Noise noise;

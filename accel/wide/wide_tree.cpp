@@ -146,6 +146,10 @@ std::optional<Hit> WideTree::closest(const SpaceRay& ray, DepthRange range) cons
     return closest_hit(*this, ray, range);
 }
 
+std::optional<Hit> WideTree::closest_from(const SpaceRay& ray, DepthRange range, const Hit& from) const {
+    return closest_hit_from(*this, ray, range, from);
+}
+
 bool WideTree::any(const SpaceRay& ray, DepthRange range) const {
     return any_hit(*this, ray, range);
 }

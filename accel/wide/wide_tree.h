@@ -107,6 +107,9 @@ class WideTree final : public RayQuery {
 
     std::optional<Hit> closest(const SpaceRay& ray, DepthRange range) const override;
     bool any(const SpaceRay& ray, DepthRange range) const override;
+    /// closest() among the hits that are not in front of another one: that which follows a hit is found from
+    /// {its depth, its id + 1} on, with a range that begins at its depth.
+    std::optional<Hit> closest_from(const SpaceRay& ray, DepthRange range, const Hit& from) const;
     /// In one go what any() and, where grids are not all opaque, closest() would be asked for. Whether hits
     /// nearer than `near` count is not sure: all of these are Layers.
     InTheWay in_the_way(const SpaceRay& ray, DepthRange range,

@@ -1,7 +1,6 @@
 #include "pipeline/rays/grouped_ray_grids.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <vector>
 
@@ -14,12 +13,10 @@ bool sees(RayKind kind, unsigned mask) {
 
 std::optional<RaySurfaceHit> closest_in(const RayGrids& grids, const RayHits& hits, const RaySegment& ray,
                                         const PlacedRay& placed) {
-    auto [space, range, near] = placed.ranged(ray);
-    while (range.min <= range.max) {
-        const std::optional<RayGridHit> found = grids.closest(space, range);
-        if (!found) return {};
+    RangedRay asked = placed.ranged(ray);
+    while (const std::optional<RayGridHit> found = grids.closest(asked)) {
         if (hits.counts(ray, placed, *found)) return hits.hit_of(ray, placed, *found);
-        range.min = std::nextafter(found->hit.depth, kInfinity);
+        asked.pass(found->hit);
     }
     return {};
 }
@@ -33,11 +30,11 @@ void closest_in(const RayBricks& bricks, const RayHits& hits, std::span<const Ra
     std::iota(going.begin(), going.end(), 0u);
     while (!going.empty()) {
         std::vector<bool> counted(going.size(), true);  // the last hit, if there is one
-        std::vector<float> behind(going.size());
+        std::vector<Hit> passed(going.size());
         bricks.closest(asked, [&](size_t r, const RayGridHit& met) {
             const uint32_t i = going[r];
             counted[r] = hits.counts(rays[i], placed[i], met);
-            behind[r] = std::nextafter(met.hit.depth, kInfinity);
+            passed[r] = met.hit;
             if (counted[r])
                 found[i] = hits.hit_of(rays[i], placed[i], met);
             else
@@ -45,9 +42,9 @@ void closest_in(const RayBricks& bricks, const RayHits& hits, std::span<const Ra
         });
         size_t left = 0;
         for (size_t r = 0; r < going.size(); ++r) {
-            if (counted[r] || behind[r] > asked[r].range.max) continue;
+            if (counted[r]) continue;
             going[left] = going[r], asked[left] = asked[r];
-            asked[left++].range.min = behind[r];
+            asked[left++].pass(passed[r]);
         }
         going.resize(left), asked.resize(left);
     }
@@ -100,9 +97,9 @@ std::optional<RaySurfaceHit> GroupedRayGrids::closest(const RayHits& hits, const
     for (unsigned mask = 0; mask < kMasks; ++mask) {
         if (!sees(kind, mask) || !groups_[mask].grids) continue;
         const std::optional<RaySurfaceHit> hit = closest_in(*groups_[mask].grids, hits, rest, placed);
-        if (!hit || (nearest && hit->distance >= nearest->distance)) continue;
+        if (!hit || !is_in_front(*hit, nearest)) continue;
         nearest = hit;
-        rest.max = hit->distance;
+        rest.max = std::min(ray.max, beyond(hit->distance));
     }
     return nearest;
 }
@@ -120,9 +117,9 @@ void GroupedRayGrids::closest(const RayHits& hits, std::span<const RaySegment> r
         if (group.bricks) closest_in(*group.bricks, hits, rest, placed, of_group);
         for (size_t i = 0; i < rays.size(); ++i) {
             if (!group.bricks) of_group[i] = closest_in(*group.grids, hits, rest[i], placed[i]);
-            if (!of_group[i] || (found[i] && of_group[i]->distance >= found[i]->distance)) continue;
+            if (!of_group[i] || !is_in_front(*of_group[i], found[i])) continue;
             found[i] = of_group[i];
-            rest[i].max = of_group[i]->distance;
+            rest[i].max = std::min(rays[i].max, beyond(of_group[i]->distance));
         }
     }
 }

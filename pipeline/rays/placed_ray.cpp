@@ -38,7 +38,7 @@ PlacedRay::PlacedRay(const RaySegment& ray, const ObjectPlace& at) : place(&at) 
 }
 
 RangedRay PlacedRay::ranged(const RaySegment& ray) const {
-    return {space, {ray.min * scale, ray.max * scale}, ray.left.most * scale};
+    return {.ray = space, .range = {ray.min * scale, ray.max * scale}, .near = ray.left.most * scale};
 }
 
 }  // namespace trapeze

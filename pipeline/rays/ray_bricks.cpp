@@ -85,8 +85,9 @@ void RayBricks::make_room() const {
 
 /// Meets a brick's grids: their nearest hit, if it is nearer than the one before.
 bool RayBricks::meet(const Brick& brick, const RangedRay& ranged, Hit& nearest, const Grid*& grid) {
-    const float max = std::min(ranged.range.max, nearest.depth);
-    const std::optional<Hit> hit = brick.tree->closest(ranged.ray, {ranged.range.min, max});
+    RangedRay ray = ranged;
+    ray.range.max = std::min(ray.range.max, nearest.depth);
+    const std::optional<Hit> hit = closest_in(*brick.tree, brick.grids, ray);
     if (!hit) return false;
     const Hit global = with_ordinal(*hit, brick.grids);
     if (!in_front(global, nearest)) return false;
@@ -95,12 +96,12 @@ bool RayBricks::meet(const Brick& brick, const RangedRay& ranged, Hit& nearest, 
     return true;
 }
 
-std::optional<RayGridHit> RayBricks::closest(const SpaceRay& ray, DepthRange range) const {
-    TraceRay trace_ray = TraceRay::turned(axis_ray(ray), range);
+std::optional<RayGridHit> RayBricks::closest(const RangedRay& ray) const {
+    TraceRay trace_ray = TraceRay::turned(axis_ray(ray.ray), ray.range);
     RayGridHit nearest{kNoHit, nullptr, nullptr};
     tree_->visit(trace_ray, [&](uint32_t number, float) {
         const std::shared_ptr<const Brick> met = brick(number);
-        if (!meet(*met, {ray, range}, nearest.hit, nearest.grid)) return;
+        if (!meet(*met, ray, nearest.hit, nearest.grid)) return;
         nearest.keeps = met;
         trace_ray.t_max = nearest.hit.depth;
     });

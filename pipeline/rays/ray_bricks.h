@@ -28,7 +28,7 @@ class RayBricks final : public RayGrids {
     RayBricks(const RayDicer& dicer, const std::vector<SubpatchExtent>& subpatches, size_t most_bytes);
     ~RayBricks() override;
 
-    std::optional<RayGridHit> closest(const SpaceRay& ray, DepthRange range) const override;
+    std::optional<RayGridHit> closest(const RangedRay& ray) const override;
     InTheWay in_the_way(const RangedRay& ray) const override;
     /// As those of one ray, for many: each brick is made once for all that want it.
     void closest(std::span<const RangedRay> rays, const TakeHit& take) const;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "accel/hit_policies.h"
 #include "accel/wide/wide_tree.h"
 #include "core/grid.h"
 #include "core/hit_buffer.h"
@@ -16,7 +17,11 @@ namespace trapeze {
 struct RangedRay {
     SpaceRay ray;
     DepthRange range;
-    float near = 0;  ///< as WideTree::in_the_way()'s
+    float near = 0;        ///< as WideTree::in_the_way()'s
+    Hit from = kFirstHit;  ///< closest hits in front of it do not count; its id's grid is a subpatch
+
+    /// Goes on behind a hit: others may be as deep.
+    void pass(const Hit& hit) { range.min = hit.depth, from = {hit.depth, hit.id + 1}; }
 };
 
 /// Where a ray meets a grid.
@@ -31,8 +36,8 @@ struct RayGridHit {
 class RayGrids {
   public:
     virtual ~RayGrids() = default;
-    /// As RayQuery's.
-    virtual std::optional<RayGridHit> closest(const SpaceRay& ray, DepthRange range) const = 0;
+    /// As WideTree::closest_from().
+    virtual std::optional<RayGridHit> closest(const RangedRay& ray) const = 0;
     /// As WideTree's.
     virtual InTheWay in_the_way(const RangedRay& ray) const = 0;
     /// Memory that is held now.

@@ -1,12 +1,27 @@
 /// What it means that a ray meets a micropolygon: whether it counts, and what shading is to know of it.
 #pragma once
 
+#include <optional>
+#include <tuple>
+
 #include "core/scene/ray_scene.h"
 #include "pipeline/rays/placed_ray.h"
 #include "pipeline/rays/ray_dicer.h"
 #include "pipeline/rays/ray_grids.h"
 
 namespace trapeze {
+
+/// The nearer hit; of equally near ones that of the primitive that comes first.
+inline bool is_in_front(const RaySurfaceHit& hit, const std::optional<RaySurfaceHit>& nearest) {
+    return !nearest ||
+           std::tuple(hit.distance, hit.primitive) < std::tuple(nearest->distance, nearest->primitive);
+}
+
+/// What no hit that is as near as `distance` is said to lie behind: depths round, and in another space they
+/// round differently.
+inline float beyond(float distance) {
+    return distance * (1 + 0x1p-20f);
+}
 
 /// Of a level of the geometry.
 class RayHits {

@@ -26,16 +26,10 @@ void unite(std::optional<GridExtent>& all, const GridExtent& one) {
     all = all ? united(*all, one) : one;
 }
 
-/// The nearer hit; of equally near ones that of the primitive that comes first.
-bool is_in_front(const RaySurfaceHit& hit, const std::optional<RaySurfaceHit>& nearest) {
-    return !nearest ||
-           std::tuple(hit.distance, hit.primitive) < std::tuple(nearest->distance, nearest->primitive);
-}
-
-/// Hits as near as the nearest are wanted, too, which round differently in another space.
-RaySegment beyond(const RaySegment& rest) {
+/// Hits as near as the nearest are wanted, too.
+RaySegment to_beyond(const RaySegment& rest) {
     RaySegment ray = rest;
-    ray.max *= 1 + 0x1p-20f;
+    ray.max = beyond(rest.max);
     return ray;
 }
 
@@ -130,7 +124,7 @@ std::optional<RaySurfaceHit> RayLevel::closest(const RaySegment& ray, RayKind ki
     if (nearest) rest.max = nearest->distance;
     places_->visit(rest, [&](uint32_t, float, const PlacedRay& placed) {
         const GroupedRayGrids& object = objects_[placed.place->object];
-        const std::optional<RaySurfaceHit> hit = object.closest(hits_, beyond(rest), placed, kind);
+        const std::optional<RaySurfaceHit> hit = object.closest(hits_, to_beyond(rest), placed, kind);
         if (hit && hit->distance <= ray.max && is_in_front(*hit, nearest)) {
             nearest = hit;
             rest.max = hit->distance;
@@ -195,11 +189,11 @@ void RayLevel::closest(std::span<const RaySegment> rays, RayKind kind,
     std::vector<RaySegment> asked;
     std::vector<std::optional<RaySurfaceHit>> found;
     for_each_object(
-        rest, [&](const Meeting& meeting) { return meeting.distance <= beyond(rest[meeting.ray]).max; },
+        rest, [&](const Meeting& meeting) { return meeting.distance <= to_beyond(rest[meeting.ray]).max; },
         [&](const GroupedRayGrids& object, std::span<const Meeting> meetings,
             std::span<const PlacedRay> placed) {
             asked.clear(), found.assign(meetings.size(), std::nullopt);
-            for (const Meeting& meeting : meetings) asked.push_back(beyond(rest[meeting.ray]));
+            for (const Meeting& meeting : meetings) asked.push_back(to_beyond(rest[meeting.ray]));
             object.closest(hits_, asked, placed, kind, found);
             for (size_t k = 0; k < meetings.size(); ++k) {
                 const uint32_t i = meetings[k].ray;

@@ -1,6 +1,7 @@
 /// Grids that are in memory as a whole, with one tree over them.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "accel/wide/wide_tree.h"
@@ -15,13 +16,24 @@ inline Hit with_ordinal(const Hit& hit, const Grids& grids) {
     return {hit.depth, id.packed()};
 }
 
+/// The nearest hit of a tree over some grids, in the order of their ordinals.
+inline std::optional<Hit> closest_in(const WideTree& tree, const Grids& grids, const RangedRay& ray) {
+    if (ray.from == kFirstHit) return tree.closest(ray.ray, ray.range);
+    MicropolygonId id = MicropolygonId::unpack(ray.from.id);
+    const auto at = std::ranges::lower_bound(grids.grids, uint64_t{id.grid}, {}, &Grid::ordinal);
+    const bool is_there = at != grids.grids.end() && at->ordinal == id.grid;
+    if (!is_there) id.u = id.v = 0;
+    id.grid = static_cast<uint32_t>(at - grids.grids.begin());
+    return tree.closest_from(ray.ray, ray.range, {ray.from.depth, id.packed()});
+}
+
 class WholeRayGrids final : public RayGrids {
   public:
     /// In the order of their ordinals; at least one, at most WideTree::kMaxGrids.
     explicit WholeRayGrids(Grids grids) : grids_(std::move(grids)), tree_(grids_, RayReach()) {}
 
-    std::optional<RayGridHit> closest(const SpaceRay& ray, DepthRange range) const override {
-        const std::optional<Hit> hit = tree_.closest(ray, range);
+    std::optional<RayGridHit> closest(const RangedRay& ray) const override {
+        const std::optional<Hit> hit = closest_in(tree_, grids_, ray);
         if (!hit) return {};
         return RayGridHit{with_ordinal(*hit, grids_), &grids_.grids[MicropolygonId::unpack(hit->id).grid],
                           nullptr};

@@ -36,6 +36,8 @@ class RayWorldScene {
 
     const RayWorld& world() const { return *world_; }
     const Scene& scene() const { return *scene_; }
+    const RenderContext& context() const { return context_; }
+    const Shading& shading() const { return *shading_; }
 
   private:
     Diagnostics diagnostics_;
