@@ -1,5 +1,6 @@
 /// How errors fall, next to closed forms: from N rays to 4N the mean squared error, over a picture's points
-/// and 16 seeds, falls at least by 4. Of area lights of each shape, and of calls that spread rays.
+/// and 16 seeds, falls at least by 4. Of area lights of each shape, at rest and while they move, and of calls
+/// that spread rays.
 ///
 /// What 16 seeds allow: pictures of other seeds and other numbers of rays are independent, so that the
 /// deviation of the ratio of two mean squared errors follows from how those of single seeds differ. A ratio
@@ -186,6 +187,102 @@ std::vector<Asked> all() {
     };
 }
 
+const std::string kInItsTime = "Attribute \"trace\" \"int samplemotion\" 1 ";
+const std::string kPasses = "MotionBegin [0 1] Translate -1 0 0 Translate 1 0 0 MotionEnd ";
+/// The mean of a formula while x goes from -1 to 1.
+std::string mean_of_passing(const std::string& formula) {
+    return "float expected = 0, i; for (i = .5; i < 64; i += 1) { float x = i / 32 - 1; expected += (" +
+           formula + ") / 64; }";
+}
+
+/// A whole turn about the map's poles.
+const std::string kTurnsAround = "MotionBegin [0 1] Rotate 0 0 0 1 Rotate 360 0 0 1 MotionEnd ";
+
+/// What arrives of the sky where each row has its mean all around.
+double expected_of_turned_sky() {
+    double expected = 0;
+    for (int y = 0; y < kDown; ++y) {
+        const auto of_height = [](double down) { return down / 2 - std::sin(2 * down) / 4; };
+        const double down = M_PI / kDown, part = of_height(down * (y + 1)) - of_height(down * y);
+        for (int x = 0; x < kAcross; ++x) expected += sky_at(x, y) / kAcross * part * 2 / M_PI;
+    }
+    return expected;
+}
+
+/// What the shapes of lights of radiance 1 give from where their middles are.
+const std::string kRadiances =
+    kSide +
+    "float square(point m) { extern point P; vector x = vector(.5, 0, 0), y = vector(0, .5, 0);"
+    "  return abs(side(P, m - x - y, m + x - y) + side(P, m + x - y, m + x + y) +"
+    "    side(P, m + x + y, m - x + y) + side(P, m - x + y, m - x - y)); }"
+    "float disk(point m) { extern point P; float a2 = pow(xcomp(P - m), 2) + pow(ycomp(P - m), 2);"
+    "  float sum = 4 + a2 + 1; return (1 - (4 + a2 - 1) / sqrt(sum * sum - 4 * a2)) / 2; }"
+    "float ball(point m) { extern point P; vector w = m - P; return .25 / (w . w) * 2 / length(w); } ";
+
+/// Lights that move while the shutter is open, and domes that a ball is in front of.
+std::vector<Asked> of_lights_in_time_and_domes() {
+    const auto passing = [](const char* name, const std::string& light, const std::string& formula) {
+        return Asked{name, kInItsTime + light, kRadiances, mean_of_passing(formula) + kFacing, ""};
+    };
+    return {
+        passing("Rectangle", ris_light("PxrRectLight", kPasses + "Translate 0 0 3"),
+                "square(point(x, 0, 3))"),
+        passing("Disk", ris_light("PxrDiskLight", kPasses + "Translate 0 0 3 Scale 2 2 1"),
+                "disk(point(x, 0, 3))"),
+        passing("Sphere", ris_light("PxrSphereLight", kPasses + "Translate 0 0 3"), "ball(point(x, 0, 3))"),
+        passing("Mesh",
+                "AttributeBegin Attribute \"visibility\" \"int camera\" 0 " + kPasses +
+                    "Light \"PxrMeshLight\" \"m\" \"int fixedSampleCount\" [COUNT] "
+                    "Patch \"bilinear\" \"P\" [-.5 -.5 3 .5 -.5 3 -.5 .5 3 .5 .5 3] AttributeEnd ",
+                "square(point(x, 0, 3))"),
+        passing("AreaLightSource",
+                "AttributeBegin Attribute \"visibility\" \"int camera\" 0 "
+                "Attribute \"light\" \"int nsamples\" [COUNT] AreaLightSource \"arealight\" \"a\" " +
+                    kPasses +
+                    "Patch \"bilinear\" \"P\" [-.5 -.5 3 .5 -.5 3 -.5 .5 3 .5 .5 3] AttributeEnd "
+                    "Illuminate \"a\" 1 ",
+                "PI * square(point(x, 0, 3))"),
+        {"Dome", kInItsTime + ris_light("PxrDomeLight", kTurnsAround, "\"string lightColorMap\" [\"SKY\"]"),
+         "",
+         "Ci = color(comp(diffuse(normal(-1, 0, 0)), 0), " + std::to_string(expected_of_turned_sky()) +
+             ", 1);",
+         ""},
+        {"DomeBehindABall", ris_light("PxrDomeLight", ""), kRadiances,
+         "float expected = 1 - ball(point(0, 0, 3)); " + kFacing, kSphere},
+        {"DomeBehindABallThatMoves", kInItsTime + ris_light("PxrDomeLight", ""), kRadiances,
+         mean_of_passing("1 - 4 * ball(point(2 * x, 0, 3))") + kFacing,
+         "Scale 2 1 1 " + kPasses + "Scale .5 1 1 Translate 0 0 3 Sphere 1 -1 1 360 "},
+    };
+}
+
+/// Rays that fill a cone, in which the whole ball is: of solid angles, or by the cosine to its axis.
+std::vector<Asked> of_cones() {
+    const std::string even = kBall + "expected = (1 - sqrt(1 - .25 / d2)) / (1 - cos(1)); ";
+    const std::string by_cosine = kBall + "expected /= sin(1) * sin(1); ";
+    const std::string gather = "float sum = 0; gather(\"illuminance\", P, vector(0, 0, -1), 1, COUNT";
+    return {
+        {"Trace", "", "",
+         even + "color seen = trace(P, vector(0, 0, -1), \"samples\", COUNT, \"samplecone\", 1);"
+                "Ci = color(comp(seen, 0), expected, 1);",
+         kSphere},
+        {"Transmission", "", "",
+         even + "color open = transmission(P, P - vector(0, 0, 9), \"samples\", COUNT, \"samplecone\", 1);"
+                "Ci = color(comp(open, 0), 1 - expected, 1);",
+         kSphere},
+        {"TransmissionInTime", kInItsTime, "float even(vector m) { return 1 - sqrt(1 - .81 / (m . m)); } ",
+         mean_of_passing("even(point(0, 0, -2 - 5 * x) - P) / (1 - cos(1.2))") +
+             "color open = transmission(P, P - vector(0, 0, 99), \"samples\", COUNT, \"samplecone\", 1.2);"
+             "Ci = color(comp(open, 0), 1 - expected, 1);",
+         "MotionBegin [0 1] Translate 0 0 3 Translate 0 0 -7 MotionEnd Sphere .9 -.9 .9 360 "},
+        {"ConeOfGather", "", "",
+         even + gather + ") { sum += 1; } else { } Ci = color(sum / COUNT, expected, 1);", kSphere},
+        {"ConeOfGatherByCosine", "", "",
+         by_cosine + gather +
+             ", \"distribution\", \"cosine\") { sum += 1; } else { } Ci = color(sum / COUNT, expected, 1);",
+         kSphere},
+    };
+}
+
 class RayErrors : public ::testing::TestWithParam<Asked> {};
 
 TEST_P(RayErrors, FallAtLeastAsOneOverTheNumberOfRays) {
@@ -205,8 +302,13 @@ TEST_P(RayErrors, FallAtLeastAsOneOverTheNumberOfRays) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(, RayErrors, ::testing::ValuesIn(all()),
-                         [](const ::testing::TestParamInfo<Asked>& asked) { return asked.param.name; });
+std::string name_of_asked(const ::testing::TestParamInfo<Asked>& asked) {
+    return asked.param.name;
+}
+INSTANTIATE_TEST_SUITE_P(, RayErrors, ::testing::ValuesIn(all()), name_of_asked);
+INSTANTIATE_TEST_SUITE_P(Moving, RayErrors, ::testing::ValuesIn(of_lights_in_time_and_domes()),
+                         name_of_asked);
+INSTANTIATE_TEST_SUITE_P(Cones, RayErrors, ::testing::ValuesIn(of_cones()), name_of_asked);
 
 }  // namespace
 }  // namespace trapeze::testing
