@@ -3,6 +3,10 @@
 /// rest, while they move and grow, and blown up by a displacement from things of half their size.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
+#include <utility>
+
 #include "tests/rays/rays_harness.h"
 
 namespace trapeze::testing {
@@ -109,6 +113,13 @@ Sent white(const std::string& thing, const std::string& away, int depth) {
     return sent;
 }
 
+/// A map that is white all around. (Files of 8 bits hold the numbers that are meant.)
+const std::string kWhiteMap = "P3\n4 2\n255\n" + [] {
+    std::string pixels;
+    for (int i = 0; i < 4 * 2 * 3; ++i) pixels += "255 ";
+    return pixels;
+}();
+
 class RayFurnace : public ::testing::TestWithParam<FurnacePose> {};
 
 /// All rays miss, so that there is no noise.
@@ -137,6 +148,81 @@ TEST_P(RayFurnaceOfALight, ConvexThingsAreNotToBeSeen) {
     const Image image = c.render("Ci = diffuse(faceforward(normalize(N), point(0, 0, 4) - P));");
     for (const Pixel& p : pixels(image)) ASSERT_NEAR(p.red, p.alpha, 0.12);
     EXPECT_NEAR(mean_red(image), 1, 2e-3);
+}
+
+/// What looks at all of the sky by one call sees nothing else, and all of it: no noise, however it moves.
+TEST_P(RayFurnace, ConvexThingsHideNothingOfTheSkyFromThemselves) {
+    const WorkFolder folder;
+    folder.write("white.ppm", kWhiteMap);
+    const std::string map = (folder / "white.ppm").string();
+    const std::pair<Thing, std::string> things[] = {{furnace_ball, kOutOfTheFurnaceBall}, {cube, kFacing}};
+    for (const auto& [thing, away] : things) {
+        int seen = 0;
+        const Image image = furnace(placed(GetParam(), thing, kTurned), 1)
+                                .render(away +
+                                        "Ci = color(1 - occlusion(P, away, 16),"
+                                        "  comp(indirectdiffuse(P, away, 16, \"environmentmap\", \"" +
+                                        map + "\"), 0), 1);");
+        for (const Pixel& p : pixels(image)) {
+            seen += p.alpha > 0;
+            ASSERT_EQ(p.red, p.alpha);
+            ASSERT_NEAR(p.green, p.alpha, 1e-5f);
+        }
+        EXPECT_GT(seen, 400);
+    }
+}
+
+/// Domes that turn while the shutter is open and are drawn out, so that what a sample of a map stands for
+/// changes with its direction and time. A white map is white all the time.
+std::string turning_dome(const std::string& map, int samples) {
+    return "AttributeBegin MotionBegin [0 1] Rotate 0 1 2 3 Rotate 120 1 2 3 MotionEnd "
+           "MotionBegin [0 1] Scale 1 1 1 Scale 1 1 3 MotionEnd "
+           "Light \"PxrDomeLight\" \"l\" \"int fixedSampleCount\" [" +
+           std::to_string(samples) + "] " +
+           (map.empty() ? "" : "\"string lightColorMap\" [\"" + map + "\"] ") + "AttributeEnd ";
+}
+
+/// The mean over the picture is white within four of its deviations, which blocks of 64 pixels tell: their
+/// random numbers are independent. The deviation is as given at most: there is more where some blocks are too
+/// bright and others too dark.
+void expect_white(const Image& image, double deviation) {
+    constexpr int kBlock = 8;
+    std::map<std::pair<int, int>, std::pair<double, double>> blocks;
+    int i = 0;
+    for (const Pixel& p : pixels(image)) {
+        const int x = i % image.width, y = i++ / image.width;
+        auto& [error, count] = blocks[{x / kBlock, y / kBlock}];
+        if (p.alpha > 0) error += static_cast<double>(p.red - p.alpha), ++count;
+    }
+    double error = 0, squares = 0, count = 0;
+    for (const auto& [at, block] : blocks)
+        error += block.first, squares += block.first * block.first, count += block.second;
+    ASSERT_GT(count, 400);
+    EXPECT_LE(std::sqrt(squares) / count, deviation);
+    EXPECT_NEAR(error / count, 0, 4 * std::sqrt(squares) / count);
+}
+
+TEST_P(RayFurnaceOfALight, ConvexThingsAreNotToBeSeenUnderDomesThatTurn) {
+    const WorkFolder folder;
+    folder.write("white.ppm", kWhiteMap);
+    for (const std::string& map : {std::string(), (folder / "white.ppm").string()}) {
+        SCOPED_TRACE(map);
+        Case c = furnace(placed(GetParam(), furnace_ball), 1);
+        c.may_say = "ris";
+        c.asker += turning_dome(map, 128);
+        expect_white(c.render("Ci = diffuse(faceforward(normalize(N), point(0, 0, 4) - P));"), 2e-3);
+    }
+}
+
+/// What one bounce brings is lit by the dome in turn: 3/4 of the light is seen, as below.
+TEST_P(RayFurnaceOfALight, ABowlUnderADomeThatTurnsLosesAQuarter) {
+    Case c = furnace(placed(GetParam(), bowl), 1);
+    c.may_say = "ris";
+    c.asker += turning_dome("", 8);
+    expect_white(
+        c.render(kInwards + "Ci = raydepth() == 0 ? (diffuse(away) + indirectdiffuse(P, away, 8)) / .75 :"
+                            "  diffuse(away);"),
+        5e-3);
 }
 
 /// In a bowl that is half of a sphere every point sees as much of the bowl as every other one: its share of
