@@ -119,6 +119,72 @@ TEST(RayDisplaced, ThePenumbraOfALiftedEdgeThatMovesIsItsMeanOverTheShutter) {
     expect_moving_penumbra(c);
 }
 
+/// So much of a disk of radius 3, 1000 away, is hidden by a ball of radius .6, 150 away: from a point its
+/// outline falls on the disk as a circle of radius 4 (it is 1e-4 longer than wide at most). `apart` is how
+/// far its middle is from the disk's; the formula is that of two circles' common part.
+const std::string kHiddenDisk =
+    "float hidden(float apart) {"
+    "  float a = (apart * apart + 9 - 16) / (2 * apart), b = apart - a;"
+    "  float common = 9 * acos(clamp(a / 3, -1, 1)) + 16 * acos(clamp(b / 4, -1, 1))"
+    "    - apart * sqrt(max(9 - a * a, 0));"
+    "  return apart < 1.0001 ? 1 : (apart > 7 ? 0 : common / (9 * PI)); } ";
+const std::string kDiskOfHiddenDisk =
+    "AttributeBegin Translate 0 0 -995 Scale 6 6 1 Light \"PxrDiskLight\" \"l\" \"int fixedSampleCount\" "
+    "[256] AttributeEnd ";
+/// What is found, as a part of what the disk gives where nothing is in the way; what is to be.
+const std::string kLitByHiddenDisk =
+    "Ci = color(comp(diffuse(normal(0, 0, -1)), 0) * 1000009 / 9, 1 - expected, 1);";
+
+/// Red is the part of the disk that is lit, by 256 samples, green what is to be: each pixel within five
+/// deviations of independent ones, or a sample, and all within four of their mean. Micropolygons lie up to
+/// 1e-3 of the ball's radius inside, which is up to 2e-3 of what is hidden.
+void expect_hidden_disk(const Image& image) {
+    double error = 0, independent = 0, dark = 0, bright = 0;
+    for (const Pixel& p : pixels(image)) {
+        const double shown = static_cast<double>(p.green), off = static_cast<double>(p.red) - shown;
+        ASSERT_LT(std::abs(off), 5 * std::sqrt(shown * (1 - shown) / 256) + 1.0 / 256 + 2e-3);
+        independent += shown * (1 - shown) / 256, error += off / 4096;
+        dark += p.green < 0.25f;
+        bright += p.green > 0.95f;
+    }
+    EXPECT_NEAR(error, 0, 4 * std::sqrt(independent) / 4096 + 1e-3);
+    EXPECT_GT(dark, 50);
+    EXPECT_GT(bright, 100);
+}
+
+Case behind_blown_ball(const std::string& moves) {
+    Case c;
+    c.may_say = "ris";
+    c.functions = kHiddenDisk;
+    c.shaders["blow"] = "displacement blow() { P += .3 * normalize(N); N = calculatenormal(P); }";
+    c.asker = kDiskOfHiddenDisk;
+    c.things =
+        "Attribute \"trace\" \"int displacements\" [1] Attribute \"displacementbound\" \"sphere\" [.35] "
+        "ShadingRate .25 Displacement \"blow\" " +
+        moves + "Sphere .3 -.3 .3 360 ";
+    return c;
+}
+
+TEST(RayDisplaced, ThePenumbraOfABallIsThatOfTheBlownUpOne) {
+    Case c = behind_blown_ball("Translate 0 0 -145 ");
+    expect_hidden_disk(
+        c.render("float x = xcomp(P), y = ycomp(P);"
+                 "float expected = hidden(85 / 15 * sqrt(x * x + y * y));" +
+                 kLitByHiddenDisk));
+}
+
+/// By .4 to the right, while it is looked at: its outline on the disk goes by 100 / 15 of that.
+TEST(RayDisplaced, ThePenumbraOfABallThatMovesIsItsMeanOverTheShutter) {
+    Case c = behind_blown_ball("MotionBegin [0 1] Translate -.2 0 -145 Translate .2 .1 -145 MotionEnd ");
+    c.options = "Shutter 0 1 ";
+    c.asker += "Attribute \"trace\" \"int samplemotion\" [1] ";
+    expect_hidden_disk(c.render(
+        "float x = xcomp(P), y = ycomp(P), expected = 0, i; for (i = .5; i < 64; i += 1) {"
+        "  float dx = (100 * (.4 * i / 64 - .2) - 85 * x) / 15, dy = (100 * .1 * i / 64 - 85 * y) / 15;"
+        "  expected += hidden(sqrt(dx * dx + dy * dy)) / 64; }" +
+        kLitByHiddenDisk));
+}
+
 // Closed things.
 
 /// A cube with creases and a corner that grows, leans, turns and goes aside while the shutter is open, with
