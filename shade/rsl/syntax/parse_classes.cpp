@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "shade/rsl/syntax/parser.h"
 
@@ -194,7 +195,9 @@ void Parser::place_method(ClassParts& parts, size_t number, int depth, std::vect
         if (tokens_[i].kind != Token::Kind::Name || !tokens_[i + 1].is("(")) continue;
         const auto called = parts.numbers.find(tokens_[i].text);
         if (called == parts.numbers.end()) continue;
-        for (const size_t other : called->second) place_method(parts, other, depth + 1, to);
+        // Once for a name, however often it is called: a stranger's class may have many methods of it.
+        for (const size_t other : std::exchange(called->second, {}))
+            place_method(parts, other, depth + 1, to);
     }
     to.push_back(std::move(method.place));
     std::ranges::move(method.functions, std::back_inserter(unit_->functions));
