@@ -1,6 +1,7 @@
 #include "shade/displace.h"
 
 #include <cmath>
+#include <filesystem>
 
 #include "shade/materials/shader_folder_harness.h"
 #include "shade/shading_harness.h"
@@ -200,6 +201,18 @@ TEST(Displacement, BySurfacesThatAreClassesWithinTheBound) {
     }
     EXPECT_TRUE(after.displaced);
     EXPECT_TRUE(Shading(scene.context).displacing_surfaces()(0));
+}
+
+/// Files may hold a shader under another name.
+TEST(Displacement, ByAClassInAFileOfAnotherName) {
+    MovingClass scene;
+    std::filesystem::rename(scene.folder.path() + "/both.sl", scene.folder.path() + "/other.sl");
+    scene.surface("other");
+    scene.attributes->displacement_bound = 0.5f;
+    const ShadingGrid before = scene.grid(), after = scene.shaded(before);
+    EXPECT_TRUE(scene.reported.empty());
+    for (size_t i = 0; i < before.vertex_count(); ++i)
+        expect_near_triple(moved(after, before, i), V3f(0, 0, -0.5f * before.s[i]), 1e-6f);
 }
 
 /// The request's own parameters hold, and nothing moves twice.

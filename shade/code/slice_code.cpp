@@ -1,6 +1,8 @@
 #include "shade/code/slice_code.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "shade/code/blocks.h"
 #include "shade/operations/op_table.h"
@@ -13,74 +15,87 @@ bool is_jump(Op op) {
     return is_control(op) && !opens_block(op) && !divides_block(op) && !closes_block(op);
 }
 
-/// Marks instructions from those that are wanted back to what they read. Variables count as wanted or not, as
-/// a whole: an instruction that sets a wanted one stays wherever it stands. So do the blocks around what
-/// stays, with their conditions, and the jumps in these, which say for which lanes it runs.
+/// Marks instructions from those that are wanted back to what they read, each once: sources of strangers may
+/// be long. Variables count as wanted or not, as a whole: an instruction that sets a wanted one stays
+/// wherever it stands. So do the blocks around what stays, with their conditions, and the jumps in the
+/// outermost of these, which say for which lanes it runs.
 class Slicer {
   public:
-    Slicer(const Program& program, RegisterId wanted)
+    explicit Slicer(const Program& program)
         : program_(program),
           blocks_(program.code),
           stays_(program.code.size()),
-          read_(program.registers.size()) {
-        read_[wanted] = true;
+          read_(program.registers.size()),
+          writers_(program.registers.size()),
+          jumps_(program.code.size()) {
+        std::vector<size_t> outermost(program.code.size(), Blocks::kNone);
+        for (size_t i = 0; i < program.code.size(); ++i) {
+            const Instruction& instruction = program.code[i];
+            for (size_t k = 0; k < instruction.outputs; ++k) writers_[instruction.operands[k]].push_back(i);
+            if (op_traits::has(instruction.op, op_traits::kEffect)) waiting_.push_back(i);
+            // Openings come before what is in them.
+            const size_t around = blocks_.around[i];
+            if (around == Blocks::kNone) continue;
+            outermost[i] = outermost[around] == Blocks::kNone ? around : outermost[around];
+            if (is_jump(instruction.op)) jumps_[outermost[i]].push_back(i);
+        }
     }
 
-    std::vector<bool> run() {
-        for (bool changed = true; changed;) {
-            changed = false;
-            for (size_t i = program_.code.size(); i-- > 0;)
-                if (!stays_[i] && is_wanted(i)) keep(i), changed = true;
+    /// Which instructions stay that a register may have its value.
+    const std::vector<bool>& run(RegisterId wanted) {
+        want(wanted);
+        while (!waiting_.empty()) {
+            const size_t i = waiting_.back();
+            waiting_.pop_back();
+            keep(i);
+            for (size_t at = blocks_.around[i]; at != Blocks::kNone && !stays_[at]; at = blocks_.around[at])
+                keep(at);
         }
         return stays_;
     }
-    bool reads(RegisterId id) const { return read_[id]; }
 
   private:
-    bool is_wanted(size_t i) const {
-        const Instruction& instruction = program_.code[i];
-        if (op_traits::has(instruction.op, op_traits::kEffect)) return true;
-        if (is_jump(instruction.op)) return is_within_what_stays(i);
-        return std::any_of(instruction.operands.begin(), instruction.operands.begin() + instruction.outputs,
-                           [this](RegisterId id) { return read_[id]; });
+    /// All that sets it is to stay.
+    void want(RegisterId id) {
+        if (read_[id]) return;
+        read_[id] = true;
+        waiting_.insert(waiting_.end(), writers_[id].begin(), writers_[id].end());
     }
-    bool is_within_what_stays(size_t i) const {
-        for (size_t at = blocks_.around[i]; at != Blocks::kNone; at = blocks_.around[at])
-            if (stays_[at]) return true;
-        return false;
-    }
-
-    /// With the blocks around it.
+    /// An opening with the rest of its block's frame.
     void keep(size_t i) {
         keep_one(i);
-        if (opens_block(program_.code[i].op)) keep_marks(i);
-        for (size_t at = blocks_.around[i]; at != Blocks::kNone && !stays_[at]; at = blocks_.around[at]) {
-            keep_one(at);
-            keep_marks(at);
-        }
-    }
-    void keep_marks(size_t opening) {
-        keep_one(blocks_.end[opening]);
-        if (blocks_.middle[opening] != Blocks::kNone) keep_one(blocks_.middle[opening]);
+        if (!opens_block(program_.code[i].op)) return;
+        keep_one(blocks_.end[i]);
+        if (blocks_.middle[i] != Blocks::kNone) keep_one(blocks_.middle[i]);
+        waiting_.insert(waiting_.end(), jumps_[i].begin(), jumps_[i].end());
+        jumps_[i].clear();
     }
     void keep_one(size_t i) {
+        if (stays_[i]) return;
         stays_[i] = true;
         const Instruction& instruction = program_.code[i];
-        for (size_t k = 0; k < instruction.input_count(); ++k) read_[instruction.input(k)] = true;
-        // Lights may ask for what the surface has by the name of its variables.
+        for (size_t k = 0; k < instruction.input_count(); ++k) want(instruction.input(k));
         const ContextFamily context = row_of(instruction.op).context;
         const bool runs_lights = context == ContextFamily::Lights || instruction.op == Op::Illuminance;
-        if (!runs_lights && context != ContextFamily::Messages) return;
-        for (size_t id = 0; id < read_.size(); ++id) {
-            const Register::Kind kind = program_.registers[id].kind;
-            if (kind == Register::Kind::Parameter || kind == Register::Kind::Global) read_[id] = true;
+        if (runs_lights || context == ContextFamily::Messages) want_what_others_may_ask();
+    }
+    /// Lights may ask for what the surface has by the names of its variables.
+    void want_what_others_may_ask() {
+        if (std::exchange(others_ask_, true)) return;
+        for (RegisterId id = 0; id < program_.registers.size(); ++id) {
+            const Register::Kind kind = program_.reg(id).kind;
+            if (kind == Register::Kind::Parameter || kind == Register::Kind::Global) want(id);
         }
     }
 
     const Program& program_;
     Blocks blocks_;
-    std::vector<bool> stays_;  ///< of instructions
-    std::vector<bool> read_;   ///< of registers: their values are wanted
+    std::vector<bool> stays_;                   ///< of instructions
+    std::vector<bool> read_;                    ///< of registers: their values are wanted
+    std::vector<std::vector<size_t>> writers_;  ///< of registers
+    std::vector<std::vector<size_t>> jumps_;    ///< of outermost openings: those in it that do not stay yet
+    std::vector<size_t> waiting_;
+    bool others_ask_ = false;
 };
 
 }  // namespace
@@ -89,8 +104,8 @@ Program slice(const Program& program, std::string_view variable) {
     Program part = program;
     const RegisterId* const wanted = program.find_global(variable);
     if (!wanted) return part;
-    Slicer slicer(program, *wanted);
-    const std::vector<bool> stays = slicer.run();
+    Slicer slicer(program);
+    const std::vector<bool>& stays = slicer.run(*wanted);
     part.code.clear();
     std::vector<bool> named(program.registers.size());
     const auto name = [&](const Instruction& instruction) {

@@ -62,7 +62,8 @@ void Materials::add(const Attributes& attributes, const Names& varying) {
             diagnostics_->warning(attributes.surface->location,
                                   "\"" + attributes.surface->name +
                                       "\" displaces where Attribute \"displacementbound\" says how far: here "
-                                      "it does not");
+                                      "it does not",
+                                  "displacing-class " + attributes.surface->name);
     }
     material.atmosphere = volume("Atmosphere", attributes.atmosphere.get(), varying);
     // They run on other primitives, which do not have the variables of this one.

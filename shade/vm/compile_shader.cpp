@@ -1,5 +1,7 @@
 #include "shade/vm/compile_shader.h"
 
+#include <algorithm>
+
 #include "shade/code/generate.h"
 #include "shade/code/infer_storage.h"
 
@@ -13,10 +15,12 @@ std::unique_ptr<rsl::Program> compile_program(const rsl::Source& source, const r
                                               const rsl::OptimiseOptions& optimiser) {
     const auto unit = rsl::compile_front(source, options, diagnostics);
     if (!unit || unit->shaders.empty()) return nullptr;
-    const rsl::Shader* shader = unit->shaders.front().get();
+    const auto is_named = [&](const auto& shader) { return shader->name == name; };
+    const std::string_view chosen =
+        std::ranges::any_of(unit->shaders, is_named) ? name : unit->shaders.front()->name;
+    const rsl::Shader* shader = nullptr;
     for (const auto& candidate : unit->shaders)
-        if (candidate->name == name && (shader->name != name || candidate->kind == kind))
-            shader = candidate.get();
+        if (candidate->name == chosen && (!shader || candidate->kind == kind)) shader = candidate.get();
     return compile_program(*shader, diagnostics, optimiser);
 }
 

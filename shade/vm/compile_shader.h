@@ -23,9 +23,9 @@
 
 namespace trapeze::vm {
 
-/// The program of a shader in a source: of the one named so, of the wanted kind where there are two (a class
-/// of RSL 2), or of the first. Null, and all errors reported,
-/// when the source has errors or the shader is too large; null without a word when there is no shader in it.
+/// The program of a shader in a source: of the one named so, or else of the first; where two have its name (a
+/// class of RSL 2 that shades and displaces), of the wanted kind. Null, and all errors reported, when the
+/// source has errors or the shader is too large; null without a word when there is no shader in it.
 std::unique_ptr<rsl::Program> compile_program(const rsl::Source& source, const rsl::CompileOptions& options,
                                               Diagnostics& diagnostics, std::string_view name = {},
                                               std::optional<rsl::ShaderKind> kind = {},

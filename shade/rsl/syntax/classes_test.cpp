@@ -1,7 +1,6 @@
-/// Classes of RSL 2, against shaders of RSL 1 that do the same.
+/// Classes of RSL 2: what they become, and what is said of wrong ones.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 

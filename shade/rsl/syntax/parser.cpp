@@ -37,7 +37,11 @@ std::unique_ptr<TranslationUnit> Parser::unit() {
         while (!at_end() && !reporter_.full()) {
             try {
                 if (accept(";") || skip_plugin()) continue;
-                if (!at_class()) refuse_rsl2();
+                if (at_class()) {
+                    class_definition();
+                    continue;
+                }
+                refuse_rsl2();
                 definition();
             } catch (const Lost&) {
                 skip_definition();
@@ -177,7 +181,6 @@ void Parser::refuse_rsl2() {
 /// A shader or a function, which are told apart by what stands before the first parenthesis. A function's
 /// type may be left out, and words may stand before it, so that no single word tells the two apart.
 void Parser::definition() {
-    if (at_class()) return class_definition();
     if (shader_kind_named(now().text) && ahead(1).kind == Token::Kind::Name && ahead(2).is("("))
         return shader();
     if (at("transformation") && ahead(1).kind == Token::Kind::Name)

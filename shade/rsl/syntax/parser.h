@@ -17,10 +17,9 @@ namespace trapeze::rsl {
 std::unique_ptr<TranslationUnit> parse_tokens(const TokenStream& stream, Reporter& reporter);
 
 /// The parser's state. parser.cpp has definitions, parse_classes.cpp, parse_statements.cpp and
-/// parse_expressions.cpp the rest. A
-/// token is looked at as often as it takes and taken once; there is no going back but in at_...() and
-/// definition(), which look ahead by index. Functions named for a rule read that rule from now() on, and
-/// leave the token behind it as the next.
+/// parse_expressions.cpp the rest. A token is looked at as often as it takes and taken once; there is no
+/// going back but in at_...(), definition() and class_definition(), which look ahead by index. Functions
+/// named for a rule read that rule from now() on, and leave the token behind it as the next.
 class Parser {
   public:
     Parser(const std::vector<Token>& tokens, Reporter& reporter);
