@@ -34,6 +34,7 @@ const std::map<std::string, Names> kWings = {
     {"accel/moving", {"accel", "accel/builders", "accel/paper"}},
     {"accel/paper", {"accel", "accel/builders"}},
     {"accel/wide", {"accel", "accel/builders"}},
+    {"accel/wide/rays", {"accel", "accel/wide"}},
     {"composite/colors/opencolorio", {"composite/colors"}},
     {"composite/displays", {"composite", "composite/mattes"}},
     {"composite/displays/openimageio", {"composite/displays"}},

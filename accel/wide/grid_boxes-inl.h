@@ -250,14 +250,7 @@ static_assert(BundleScratch::kMostWaiting + 16 * (kFewInBlock - 1) <= BundleScra
 template <bool kMotion>
 void let_wait(BundleState& t, const WaitingRay& common, const SegmentBlock& block, const uint8_t* met) {
     const ActiveRays& active = t.scratch.active;
-    // The vertices are in up to four tiles of each plane, a cache line each.
-    for (size_t k = 0; k < (kMotion ? 6 : 3); ++k) {
-        const float* tile = block.view.tile + k * block.view.plane;
-        __builtin_prefetch(tile);
-        __builtin_prefetch(tile + block.view.right);
-        __builtin_prefetch(tile + block.view.down);
-        __builtin_prefetch(tile + block.view.down + block.view.right);
-    }
+    fetch_block(block, kMotion ? 6 : 3);
     for (uint32_t first = 0; first < active.count; first += kLanesOfByte, ++met)
         for (uint32_t bits = *met; bits != 0; bits &= bits - 1) {
             const uint32_t a = first + static_cast<uint32_t>(std::countr_zero(bits));

@@ -8,7 +8,6 @@
 
 #include "accel/trace_ray.h"
 #include "accel/wide/bfloat16.h"
-#include "accel/wide/single_ray.h"
 #include "accel/wide/wide_grids.h"
 #include "accel/wide/wide_top.h"
 
@@ -140,22 +139,6 @@ void WideTree::find_largest() {
             }
         }
     }
-}
-
-std::optional<Hit> WideTree::closest(const SpaceRay& ray, DepthRange range) const {
-    return closest_hit(*this, ray, range);
-}
-
-std::optional<Hit> WideTree::closest_from(const SpaceRay& ray, DepthRange range, const Hit& from) const {
-    return closest_hit_from(*this, ray, range, from);
-}
-
-bool WideTree::any(const SpaceRay& ray, DepthRange range) const {
-    return any_hit(*this, ray, range);
-}
-
-InTheWay WideTree::in_the_way(const SpaceRay& ray, DepthRange range, float near) const {
-    return opaque_hit(*this, ray, range, near);
 }
 
 }  // namespace trapeze

@@ -18,8 +18,10 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "accel/hit_policies.h"
 #include "accel/wide/bfloat16.h"
 #include "accel/wide/wide_grid.h"
 #include "core/grid.h"
@@ -88,8 +90,32 @@ struct WideNodeLargest {
     float coordinate, extent[3];
 };
 
+/// Some children, wherever they are kept: a row for each plane, in the order of WideNode.
+struct ChildRows {
+    const float* planes;
+    const uint16_t* motions;  ///< as WideNodeMotion; null where nothing moves
+    const uint32_t* links;
+    size_t stride;  ///< from row to row
+    const WideNodeLargest& largest;
+
+    const float* row(size_t k) const { return planes + k * stride; }
+    const uint16_t* motion(size_t k) const { return motions + k * stride; }
+};
+
 struct GridExtent;
 struct WideChildren;
+
+/// A ray, and the depths that count.
+struct RangedRay {
+    SpaceRay ray;
+    DepthRange range;
+    /// Whether hits nearer than this are in the way is not sure.
+    float near = -std::numeric_limits<float>::infinity();
+    Hit from = kFirstHit;  ///< closest hits in front of it do not count
+
+    /// Goes on behind a hit: others may be as deep.
+    void pass(const Hit& hit) { range.min = hit.depth, from = {hit.depth, hit.id + 1}; }
+};
 
 /// What a ray meets: only grids that are not opaque (layers), or one at least that is.
 enum class InTheWay : uint8_t { Nothing, Layers, Opaque };
@@ -114,6 +140,9 @@ class WideTree final : public RayQuery {
     /// nearer than `near` count is not sure: all of these are Layers.
     InTheWay in_the_way(const SpaceRay& ray, DepthRange range,
                         float near = -std::numeric_limits<float>::infinity()) const;
+    /// The same of many rays: of those that come in the order of their origins the ones that go alike share
+    /// most of the work.
+    void in_the_way(std::span<const RangedRay> rays, std::span<InTheWay> met) const;
 
     const Grids& grids() const { return grids_; }
     const RayReach& reach() const { return reach_; }
@@ -133,6 +162,10 @@ class WideTree final : public RayQuery {
     const WideNodeMotion* node_motions() const { return node_motions_.data(); }
     const WideNodeLargest& node_largest(uint32_t node) const { return node_largest_[node]; }
     size_t node_count() const { return nodes_.size(); }  ///< the root is node 0
+    ChildRows children_of(uint32_t node) const {
+        return {nodes_[node].row(0), moves_ ? node_motions_[node].row(0) : nullptr, nodes_[node].child,
+                WideNode::kChildren, node_largest_[node]};
+    }
     /// The record of a grid, by its index in grids().
     const WideGrid& grid(uint32_t index) const { return wide_grids_[index]; }
     /// A grid's bounds and codes of boxes at its keys, as WideGrid tells; read by GridKeys.

@@ -146,11 +146,9 @@ void GroupedRayGrids::in_the_way(std::span<const RaySegment> rays, std::span<con
         for (uint32_t i = 0; i < rays.size(); ++i)
             if (met[i] != InTheWay::Opaque) asked.push_back(placed[i].ranged(rays[i])), open.push_back(i);
         of_group.resize(asked.size());
-        if (group.bricks) group.bricks->in_the_way(asked, of_group);
-        for (size_t r = 0; r < asked.size(); ++r) {
-            if (!group.bricks) of_group[r] = group.grids->in_the_way(asked[r]);
+        group.grids->in_the_way(asked, of_group);
+        for (size_t r = 0; r < asked.size(); ++r)
             met[open[r]] = std::max(met[open[r]], for_ray(rays[open[r]], of_group[r]));
-        }
     }
 }
 

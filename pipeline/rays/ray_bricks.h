@@ -32,7 +32,7 @@ class RayBricks final : public RayGrids {
     InTheWay in_the_way(const RangedRay& ray) const override;
     /// As those of one ray, for many: each brick is made once for all that want it.
     void closest(std::span<const RangedRay> rays, const TakeHit& take) const;
-    void in_the_way(std::span<const RangedRay> rays, std::span<InTheWay> met) const;
+    void in_the_way(std::span<const RangedRay> rays, std::span<InTheWay> met) const override;
     size_t bytes() const override;
     /// Micropolygons made so far, those that were made again, too.
     uint64_t micropolygons_made() const { return made_.load(std::memory_order_relaxed); }

@@ -13,17 +13,6 @@
 
 namespace trapeze {
 
-/// A ray, and the depths that count.
-struct RangedRay {
-    SpaceRay ray;
-    DepthRange range;
-    float near = 0;        ///< as WideTree::in_the_way()'s
-    Hit from = kFirstHit;  ///< closest hits in front of it do not count; its id's grid is a subpatch
-
-    /// Goes on behind a hit: others may be as deep.
-    void pass(const Hit& hit) { range.min = hit.depth, from = {hit.depth, hit.id + 1}; }
-};
-
 /// Where a ray meets a grid.
 struct RayGridHit {
     Hit hit;  ///< its id's grid is the subpatch: Grid::ordinal
@@ -36,10 +25,12 @@ struct RayGridHit {
 class RayGrids {
   public:
     virtual ~RayGrids() = default;
-    /// As WideTree::closest_from().
+    /// As WideTree::closest_from(); the grid of RangedRay::from is a subpatch.
     virtual std::optional<RayGridHit> closest(const RangedRay& ray) const = 0;
     /// As WideTree's.
     virtual InTheWay in_the_way(const RangedRay& ray) const = 0;
+    /// As those of one ray, for many.
+    virtual void in_the_way(std::span<const RangedRay> rays, std::span<InTheWay> met) const = 0;
     /// Memory that is held now.
     virtual size_t bytes() const = 0;
 };

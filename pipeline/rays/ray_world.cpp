@@ -167,10 +167,6 @@ void RayWorld::closest(std::span<const RaySegment* const> rays, RayKind kind,
 
 void RayWorld::blocked(std::span<const RaySegment* const> rays, RayKind kind,
                        std::span<std::optional<bool>> blocked) const {
-    if (!makes_bricks_) {
-        for (size_t i = 0; i < rays.size(); ++i) blocked[i] = this->blocked(*rays[i], kind);
-        return;
-    }
     std::ranges::fill(blocked, std::optional(false));
     std::vector<std::optional<bool>> found;
     for_each_level(

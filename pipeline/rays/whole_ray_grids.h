@@ -41,6 +41,9 @@ class WholeRayGrids final : public RayGrids {
     InTheWay in_the_way(const RangedRay& ray) const override {
         return tree_.in_the_way(ray.ray, ray.range, ray.near);
     }
+    void in_the_way(std::span<const RangedRay> rays, std::span<InTheWay> met) const override {
+        tree_.in_the_way(rays, met);
+    }
     size_t bytes() const override { return grids_.bytes() + tree_.stats().tree_bytes; }
 
   private:

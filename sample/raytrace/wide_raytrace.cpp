@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "accel/wide/bundle.h"
-#include "accel/wide/single_ray.h"
+#include "accel/wide/rays/single_ray.h"
 #include "sample/hit_lists.h"
 #include "sample/raytrace/sample_order.h"
 

@@ -8,7 +8,7 @@ namespace {
 
 /// Hits that are shaded together; and rays in memory at once, about.
 constexpr size_t kShadedTogether = 256;
-constexpr size_t kRaysAtOnce = 4096;
+constexpr size_t kRaysAtOnce = 16384;
 /// The most surfaces that a ray looks through: a bound on scenes where next to nothing stops it. Otherwise it
 /// goes on as long as light is left. Behind the last one it ends as where nothing is hit: what has been seen,
 /// and what is left of the light, stay as they are.

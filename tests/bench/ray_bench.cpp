@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "accel/wide/scalar_ray_harness.h"
-#include "accel/wide/single_ray.h"
+#include "accel/wide/rays/scalar_ray_harness.h"
+#include "accel/wide/rays/single_ray.h"
 #include "accel/wide/wide_tree.h"
 #include "sampling_scenes.h"
 #include "tests/bench/run_benchmarks.h"
@@ -33,8 +33,8 @@ struct Query {
     DepthRange range;
 };
 
-/// Rays that are asked for in one call, where a tracer takes many: about as many as shading has at a time.
-constexpr size_t kAtOnce = 1024;
+/// Rays that are asked for in one call, where a tracer takes many: as many as shading has at a time.
+constexpr size_t kAtOnce = 16384;
 
 /// What rays are for. Occlusion asks whether they hit anything, indirect light and mirrors what.
 enum class Kind : int { Shadow, Mirror, Occlusion, Indirect };
@@ -64,25 +64,29 @@ class RayScene {
     const WideTree& tree() const { return tree_; }
 
     std::vector<Query> rays(Kind kind) {
-        constexpr size_t kPointsOfGrid = 8;
+        constexpr size_t kPointsOfGrid = kPointsAlong * kPointsAlong;
         const bool hemisphere = kind == Kind::Occlusion || kind == Kind::Indirect;
         const size_t points = hemisphere ? 2048 : 65536,
                      step = std::max<size_t>(1, grids().grids.size() * kPointsOfGrid / points);
         engine_.seed(11);
         std::vector<Query> queries;
         for (size_t g = 0; g < grids().grids.size(); g += step)
-            for (size_t p = 0; p < kPointsOfGrid; ++p) add_rays(kind, grids().grids[g], queries);
+            for (int p = 0; p < kPointsAlong * kPointsAlong; ++p)
+                add_rays(kind, grids().grids[g], p % kPointsAlong, p / kPointsAlong, queries);
         return queries;
     }
 
   private:
+    /// Points of a grid along u and v: next to each other, as shading has them.
+    static constexpr int kPointsAlong = 8;
+
     float random(float from, float to) {
         return from + (to - from) * static_cast<float>(engine_()) * 0x1p-32f;
     }
 
-    void add_rays(Kind kind, const Grid& grid, std::vector<Query>& queries) {
-        const int u = static_cast<int>(engine_() % grid.shape.nu),
-                  v = static_cast<int>(engine_() % grid.shape.nv);
+    /// Of vertex (u, v), or the last one but one where there are fewer.
+    void add_rays(Kind kind, const Grid& grid, int u, int v, std::vector<Query>& queries) {
+        u = std::min(u, grid.shape.nu - 1), v = std::min(v, grid.shape.nv - 1);
         const float time = grid.moves() ? random(0, 1) : 0.0f;
         const V3f at = grid.vertex(u, v, time), along_u = grid.vertex(u + 1, v, time) - at,
                   along_v = grid.vertex(u, v + 1, time) - at;
@@ -143,6 +147,27 @@ class Wide {
     const WideTree& tree_;
 };
 
+/// The same, of many rays in one call: whether they hit anything.
+class WideTogether {
+  public:
+    explicit WideTogether(const RayScene& scene, bool) : tree_(scene.tree()) {}
+    uint64_t bytes() const { return tree_.stats().tree_bytes; }
+    size_t any(std::span<const Query> queries) const {
+        std::vector<InTheWay> met(queries.size());
+        tree_.in_the_way(ranged(queries), met);
+        return queries.size() - static_cast<size_t>(std::ranges::count(met, InTheWay::Nothing));
+    }
+
+  private:
+    static std::vector<RangedRay> ranged(std::span<const Query> queries) {
+        std::vector<RangedRay> rays;
+        for (const Query& query : queries) rays.push_back({.ray = query.ray, .range = query.range});
+        return rays;
+    }
+
+    const WideTree& tree_;
+};
+
 class Scalar {
   public:
     explicit Scalar(const RayScene& scene, bool) : tree_(scene.tree()) {}
@@ -172,7 +197,7 @@ class Embree {
     size_t any(std::span<const Query> queries) const {
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
-        RTCRay rays[kAtOnce];
+        static RTCRay rays[kAtOnce];
         size_t hits = 0;
         for (size_t i = 0; i < queries.size(); ++i) {
             set_ray(queries[i], rays[i]);
@@ -188,7 +213,7 @@ class Embree {
     size_t closest(std::span<const Query> queries) const {
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
-        RTCRayHit rays[kAtOnce];
+        static RTCRayHit rays[kAtOnce];
         size_t hits = 0;
         for (size_t i = 0; i < queries.size(); ++i) {
             set_ray(queries[i], rays[i].ray);
@@ -234,6 +259,11 @@ std::string named(const NamedKind& kind, bool moves, const char* what) {
 }
 
 template <class Tracer>
+constexpr bool kFindsClosest = requires(const Tracer& tracer, std::span<const Query> queries) {
+    tracer.closest(queries);
+};
+
+template <class Tracer>
 void trace(benchmark::State& state, Kind kind, bool moves) {
     RayScene& scene = scene_of(moves);
     const std::vector<Query> queries = scene.rays(kind);
@@ -243,7 +273,10 @@ void trace(benchmark::State& state, Kind kind, bool moves) {
         for (auto left = std::span(queries); !left.empty();
              left = left.subspan(std::min(left.size(), kAtOnce))) {
             const auto some = left.first(std::min(left.size(), kAtOnce));
-            hits += asks_any(kind) ? tracer.any(some) : tracer.closest(some);
+            if constexpr (kFindsClosest<Tracer>)
+                hits += asks_any(kind) ? tracer.any(some) : tracer.closest(some);
+            else
+                hits += tracer.any(some);
         }
         rays += queries.size();
     }
@@ -274,8 +307,10 @@ template <class Tracer>
 void add(const char* tracer) {
     for (const NamedKind& kind : kKinds)
         for (const bool moves : {false, true})
-            benchmark::RegisterBenchmark(named(kind, moves, tracer).c_str(), trace<Tracer>, kind.kind, moves)
-                ->Unit(benchmark::kMillisecond);
+            if (kFindsClosest<Tracer> || asks_any(kind.kind))
+                benchmark::RegisterBenchmark(named(kind, moves, tracer).c_str(), trace<Tracer>, kind.kind,
+                                             moves)
+                    ->Unit(benchmark::kMillisecond);
 }
 
 [[maybe_unused]] const bool kAdded = [] {
@@ -286,6 +321,7 @@ void add(const char* tracer) {
                 ->Unit(benchmark::kMillisecond);
     add<Scalar>("scalar");
     add<Wide>("wide");
+    add<WideTogether>("wide_together");
 #ifdef TRAPEZE_HAVE_EMBREE
     add<Embree<false, false>>("embree_grids");
     add<Embree<true, false>>("embree_quads");

@@ -1,5 +1,5 @@
-/// The scalar twin of accel/wide/single_ray.h: a ray through a WideTree in plain C++, one child, one box and
-/// one micropolygon after another. What tests compare vectors with and benchmarks measure them by.
+/// The scalar twin of accel/wide/rays/single_ray.h: a ray through a WideTree in plain C++, one child, one box
+/// and one micropolygon after another. What tests compare vectors with and benchmarks measure them by.
 #pragma once
 
 #include <algorithm>

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "accel/wide/wide_tree.h"
 
@@ -24,5 +25,9 @@ std::optional<Hit> closest_hit_from(const WideTree& tree, const SpaceRay& ray, D
 bool any_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range, SingleRayCounts* counts = nullptr);
 /// WideTree::in_the_way().
 InTheWay opaque_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range, float near);
+
+/// The same of many rays, in any order: met[i] is that of rays[i]. Those that go alike go together
+/// (accel/wide/rays/ray_groups.h).
+void opaque_hits(const WideTree& tree, std::span<const RangedRay> rays, std::span<InTheWay> met);
 
 }  // namespace trapeze

@@ -58,18 +58,15 @@ struct NodeSlabs {
 
     /// Cuts with the boxes of children from number `first` on, grown by `pad`; at a time, if kMotion.
     template <bool kMotion>
-    HWY_INLINE void cut(const WideTree& tree, uint32_t index, size_t first, float time, float pad,
-                        Inside& inside) const {
+    HWY_INLINE void cut(const ChildRows& rows, size_t first, float time, float pad, Inside& inside) const {
         const F32 d;
-        const WideNode& node = tree.nodes()[index];
         VF enter[3], leave[3];
 #pragma GCC unroll 3
         for (size_t k = 0; k < 3; ++k) {
-            VF in = hn::Load(d, node.row(in_row[k]) + first), out = hn::Load(d, node.row(out_row[k]) + first);
+            VF in = hn::Load(d, rows.row(in_row[k]) + first), out = hn::Load(d, rows.row(out_row[k]) + first);
             if constexpr (kMotion) {
-                const WideNodeMotion& motion = tree.node_motions()[index];
-                in = hn::MulAdd(hn::Set(d, time), from_bfloat16(d, motion.row(in_row[k]) + first), in);
-                out = hn::MulAdd(hn::Set(d, time), from_bfloat16(d, motion.row(out_row[k]) + first), out);
+                in = hn::MulAdd(hn::Set(d, time), from_bfloat16(d, rows.motion(in_row[k]) + first), in);
+                out = hn::MulAdd(hn::Set(d, time), from_bfloat16(d, rows.motion(out_row[k]) + first), out);
             }
             const VF by = hn::Set(d, inverse[k]), from = hn::Set(d, at[k]),
                      grown = hn::Mul(hn::Set(d, pad), hn::Set(d, steepness[k]));

@@ -1,6 +1,6 @@
 /// Single rays through a WideTree on every instruction set of the machine, against testing every
 /// micropolygon and against the scalar twin: the same hits, bit for bit.
-#include "accel/wide/single_ray.h"
+#include "accel/wide/rays/single_ray.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "accel/rays_harness.h"
-#include "accel/wide/scalar_ray_harness.h"
+#include "accel/wide/rays/scalar_ray_harness.h"
 #include "core/simd/targets_harness.h"
 
 namespace trapeze {

@@ -1,56 +1,33 @@
 /// The way of a single ray through a tree, with a stack of what it may meet. Its origin and slopes may be
-/// any: boxes grow by the ray's own rounding when they are tested. Compiled once a target; the best one that
-/// the machine has is chosen at each call.
-#include "accel/wide/single_ray.h"
+/// any: boxes grow by the ray's own rounding when they are tested. Compiled once a target.
+#if defined(TRAPEZE_ACCEL_SINGLE_RAY_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRAPEZE_ACCEL_SINGLE_RAY_INL_H_
+#undef TRAPEZE_ACCEL_SINGLE_RAY_INL_H_
+#else
+#define TRAPEZE_ACCEL_SINGLE_RAY_INL_H_
+#endif
 
-#include <algorithm>
+#include <hwy/highway.h>
+
 #include <bit>
 #include <cmath>
+#include <type_traits>
 
 #include "accel/grid_block.h"
 #include "accel/hit_policies.h"
 #include "accel/trace_ray.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "accel/wide/single_ray.cpp"
-#include <hwy/foreach_target.h>  // compiles this file once a target
-
-#ifndef TRAPEZE_ACCEL_SINGLE_RAY_ONCE
-#define TRAPEZE_ACCEL_SINGLE_RAY_ONCE
-namespace trapeze::single_ray_detail {
-
-/// A ray that asks, and counting policies: nothing, or into SingleRayCounts.
-struct Query {
-    const WideTree& tree;
-    TraceRay& ray;
-};
-struct CountNothing {
-    void node() {}
-    void grid() {}
-    void block(int) {}
-};
-struct CountAll {
-    SingleRayCounts& counts;
-    void node() { ++counts.nodes; }
-    void grid() { ++counts.grids; }
-    void block(int tests) { ++counts.blocks, counts.tests += static_cast<uint64_t>(tests); }
-};
-
-/// Where numbers of blocks are divided by blocks along u: up to 16 by up to 4, as n * kSixtyFourths >> 6.
-constexpr int kSixtyFourths[] = {0, 64, 32, 22, 16};
-
-}  // namespace trapeze::single_ray_detail
-#endif
-
 #include "accel/wide/compact_lanes-inl.h"
-#include "accel/wide/ray_slabs-inl.h"
+#include "accel/wide/rays/grid_list.h"
+#include "accel/wide/rays/ray_slabs-inl.h"
 #include "accel/wide/whole_block-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trapeze {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-using namespace single_ray_detail;
+
+/// Where numbers of blocks are divided by blocks along u: up to 16 by up to 4, as n * kSixtyFourths >> 6.
+inline constexpr int kSixtyFourths[] = {0, 64, 32, 22, 16};
 
 /// What a ray may still meet, of which the last comes next: links, or numbers of boxes, and where kDepths,
 /// the depths before which nothing in them is hit.
@@ -94,31 +71,29 @@ class AheadStack {
 template <bool kMotion, class Policy, class Counts>
 class SingleRay {
   public:
-    SingleRay(const Query& query, Policy& policy, Counts counts)
-        : tree_(query.tree), ray_(query.ray), policy_(policy), counts_(counts), slabs_(ray_) {
+    SingleRay(const WideTree& tree, TraceRay& ray, Policy& policy, Counts counts)
+        : tree_(tree), ray_(ray), policy_(policy), counts_(counts), slabs_(ray_) {
         block_ray_.axis = ray_.axis;
         for (int k = 0; k < 3; ++k) block_ray_.planes[k] = ray_.planes[k];
     }
 
     /// What has no bounds comes first: a hit there shortens the way through the tree.
     void run() {
+        visit_unbounded();
+        if (tree_.node_count() > 0 && !ended()) descend(0);
+    }
+
+    /// The policy wants no more.
+    bool ended() const { return ray_.t_max == -HUGE_VALF; }
+    float t_max() const { return ray_.t_max; }
+
+    void visit_unbounded() {
         for (const uint32_t index : tree_.unbounded_grids()) {
             const WideGrid& grid = tree_.grid(index);
             const int segment = start_grid(grid).index;
             for (int b = 0; b < grid.block_count() && !ended(); ++b) visit_block(index, grid, segment, b);
         }
-        if (tree_.node_count() > 0 && !ended()) descend(0);
     }
-
-  private:
-    /// Closest hits are sooner found from near to far; any hit is as good as another.
-    static constexpr bool kSorted = std::is_same_v<Policy, ClosestHit>;
-    using Stack = AheadStack<kSorted, 256>;
-    using BoxStack = AheadStack<kSorted, BoxPlanes::kMost>;
-    using VU = CompactLanes::VU;
-
-    /// The policy wants no more.
-    bool ended() const { return ray_.t_max == -HUGE_VALF; }
 
     /// A node and all below it.
     void descend(uint32_t link) {
@@ -138,6 +113,55 @@ class SingleRay {
         }
     }
 
+    /// Which children the ray may meet, a bit each.
+    HWY_INLINE uint32_t met_children(const ChildRows& rows) const {
+        uint32_t bits = 0;
+        for (size_t i = 0; i < WideNode::kChildren; i += kLanes)
+            bits |= mask_bits(F32(), meet(rows, i).some) << i;
+        return bits;
+    }
+
+    /// Which places of each part of a list the ray may meet, a bit each; adds them to those that `any` has.
+    HWY_INLINE void meet_list(const GridList& list, uint16_t* met, uint16_t* any) const {
+        const size_t parts = list.parts();
+        for (size_t n = 0; n < parts; ++n) {
+            const uint32_t bits = met_children(list.part(n));
+            met[n] = static_cast<uint16_t>(bits);
+            any[n] |= static_cast<uint16_t>(bits);
+        }
+    }
+
+    /// Which boxes of a grid the ray may meet, a bit each, and where it is in the grid's motion then.
+    HWY_INLINE uint32_t met_boxes(const WideGrid& grid, MotionSegment& segment) {
+        return kMotion && grid.moves() ? met_boxes_of<true>(grid, segment)
+                                       : met_boxes_of<false>(grid, segment);
+    }
+    /// The micropolygons of some boxes.
+    HWY_INLINE void visit_boxes(uint32_t index, const WideGrid& grid, const MotionSegment& segment,
+                                uint32_t boxes) {
+        block_ray_.local = segment.local;
+        for (; boxes != 0 && !ended(); boxes &= boxes - 1)
+            for_blocks(grid, std::countr_zero(boxes),
+                       [&](int block) HWY_ATTR { visit_block(index, grid, segment.index, block); });
+    }
+    /// Fetches the vertices of some boxes.
+    HWY_INLINE static void fetch_boxes(uint32_t index, const WideGrid& grid, const MotionSegment& segment,
+                                       uint32_t boxes) {
+        for (; boxes != 0; boxes &= boxes - 1)
+            for_blocks(grid, std::countr_zero(boxes), [&](int number) HWY_ATTR {
+                const int v = number * kSixtyFourths[grid.blocks_u()] >> 6;
+                fetch_block(block_of(grid, segment.index, number - v * grid.blocks_u(), v, index),
+                            kMotion && grid.moves() ? 6 : 3);
+            });
+    }
+
+  private:
+    /// Closest hits are sooner found from near to far; any hit is as good as another.
+    static constexpr bool kSorted = std::is_same_v<Policy, ClosestHit>;
+    using Stack = AheadStack<kSorted, 256>;
+    using BoxStack = AheadStack<kSorted, BoxPlanes::kMost>;
+    using VU = CompactLanes::VU;
+
     /// Takes what comes next from the stack; kNoLink where nothing is left.
     HWY_INLINE uint32_t next_of(Stack& stack) const {
         while (stack.size() > 0) {
@@ -149,27 +173,37 @@ class SingleRay {
         return kNoLink;
     }
 
+    /// Lanes of a node's children that the ray may meet, and of the depths at which it comes into their
+    /// boxes.
+    struct MetLanes {
+        MF some;
+        VF near;
+    };
+    HWY_INLINE MetLanes meet(const ChildRows& rows, size_t first) const {
+        const F32 d;
+        const hn::RebindToUnsigned<F32> du;
+        const float pad = ray_.rounding(rows.largest.coordinate),
+                    slack = rows.largest.extent[ray_.planes[2]] + pad;
+        Inside inside(ray_.t_min - slack, ray_.t_max + slack);
+        slabs_.cut<kMotion>(rows, first, ray_.axis.time, pad, inside);
+        const MF there = hn::RebindMask(d, hn::Ne(hn::Load(du, rows.links + first), hn::Set(du, kNoLink)));
+        return {hn::AndNot(inside.missed(), there), hn::Sub(inside.near, hn::Set(d, slack))};
+    }
+
     /// Tests a node's children, pushes those that the ray may meet but the one that comes next, and tells
     /// that or what else comes next.
     HWY_INLINE uint32_t visit_node(uint32_t index, Stack& stack) {
-        const F32 d;
         const hn::RebindToUnsigned<F32> du;
         counts_.node();
-        const WideNode& node = tree_.nodes()[index];
-        const WideNodeLargest& largest = tree_.node_largest(index);
-        const float pad = ray_.rounding(largest.coordinate), slack = largest.extent[ray_.planes[2]] + pad;
+        const ChildRows rows = tree_.children_of(index);
         const size_t from = stack.size();
         // To the next step by the shortest way: the child is read where it is, not where it is pushed.
         uint32_t last = kNoLink;
         for (size_t i = 0; i < WideNode::kChildren; i += kLanes) {
-            Inside inside(ray_.t_min - slack, ray_.t_max + slack);
-            slabs_.cut<kMotion>(tree_, index, i, ray_.axis.time, pad, inside);
-            const VU links = hn::Load(du, node.child + i);
-            const MF there = hn::RebindMask(d, hn::Ne(links, hn::Set(du, kNoLink)));
-            const MF met = hn::AndNot(inside.missed(), there);
-            stack.push(met, hn::Sub(inside.near, hn::Set(d, slack)), links);
-            if (const uint32_t bits = mask_bits(d, met))
-                last = node.child[i + 31 - static_cast<size_t>(std::countl_zero(bits))];
+            const MetLanes met = meet(rows, i);
+            stack.push(met.some, met.near, hn::Load(du, rows.links + i));
+            if (const uint32_t bits = mask_bits(F32(), met.some))
+                last = rows.links[i + 31 - static_cast<size_t>(std::countl_zero(bits))];
         }
         const size_t count = stack.size() - from;
         if (count == 0) return next_of(stack);
@@ -210,11 +244,35 @@ class SingleRay {
         if constexpr (kSorted) boxes.sort(0);
         for (; boxes.size() > 0 && !ended(); boxes.pop()) {
             if (kSorted && boxes.depth() > ray_.t_max) return;
-            const int first = static_cast<int>(boxes.link()) * grid.blocks_per_box(),
-                      last = std::min(first + grid.blocks_per_box(), grid.block_count());
-            for (int block = first; block < last; ++block)
+            for_blocks(grid, static_cast<int>(boxes.link()), [&](int block) HWY_ATTR {
                 visit_block<kGridMoves>(index, grid, segment.index, block);
+            });
         }
+    }
+
+    template <bool kGridMoves>
+    HWY_INLINE uint32_t met_boxes_of(const WideGrid& grid, MotionSegment& segment) {
+        counts_.grid();
+        const float pad = ray_.rounding(grid.largest_coordinate()),
+                    slack = grid.largest_extent(ray_.planes[2]) + pad;
+        segment = kGridMoves ? start_grid(grid) : MotionSegment{};
+        const GridSlabs<kGridMoves> slabs(tree_, grid, segment, ray_, pad);
+        uint32_t bits = 0;
+        for (size_t b = 0; b < slabs.count(); b += kLanes) {
+            Inside inside(ray_.t_min - slack, ray_.t_max + slack);
+            slabs.cut(b, inside);
+            const MF there = hn::FirstN(F32(), slabs.count() - b);
+            bits |= mask_bits(F32(), hn::AndNot(inside.missed(), there)) << b;
+        }
+        return bits;
+    }
+
+    /// Calls visit(number) for the blocks of a box.
+    template <class Visit>
+    static HWY_INLINE void for_blocks(const WideGrid& grid, int box, const Visit& visit) {
+        const int first = box * grid.blocks_per_box(),
+                  last = std::min(first + grid.blocks_per_box(), grid.block_count());
+        for (int block = first; block < last; ++block) visit(block);
     }
 
     /// Where the ray is in a grid's motion. Not by segment_at(): to call code for any machine from AVX-512
@@ -268,78 +326,8 @@ class SingleRay {
     BlockRay block_ray_;
 };
 
-template <class Policy, class Counts>
-HWY_INLINE Policy traced(const Query& query, Counts counts, Policy policy = {}) {
-    if (query.tree.moves())
-        SingleRay<true, Policy, Counts>(query, policy, counts).run();
-    else
-        SingleRay<false, Policy, Counts>(query, policy, counts).run();
-    return policy;
-}
-
-ClosestHit trace_closest(const Query& query, const Hit& from, SingleRayCounts* counts) {
-    const ClosestHit policy{.from = from};
-    return counts ? traced(query, CountAll{*counts}, policy) : traced(query, CountNothing(), policy);
-}
-FirstOpaque trace_opaque(const Query& query, float near) {
-    return traced(query, CountNothing(), FirstOpaque{.near = near});
-}
-AnyHit trace_any(const Query& query, SingleRayCounts* counts) {
-    return counts ? traced<AnyHit>(query, CountAll{*counts}) : traced<AnyHit>(query, CountNothing());
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace trapeze
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
-namespace trapeze {
-namespace {
-
-HWY_EXPORT(trace_closest);
-HWY_EXPORT(trace_any);
-HWY_EXPORT(trace_opaque);
-
-/// A ray with a part that is no number has no bounds, and hits nothing.
-bool has_numbers(const TraceRay& ray) {
-    const AxisRay& a = ray.axis;
-    return !std::isnan(a.ux) && !std::isnan(a.uy) && !std::isnan(a.ox) && !std::isnan(a.oy) &&
-           !std::isnan(a.oz) && !std::isnan(a.time);
-}
-
-std::optional<Hit> closest(const WideTree& tree, const SpaceRay& ray, DepthRange range, const Hit& from,
-                           SingleRayCounts* counts) {
-    TraceRay trace_ray = TraceRay::turned(axis_ray(ray), range);
-    if (!has_numbers(trace_ray)) return {};
-    const ClosestHit hit = HWY_DYNAMIC_DISPATCH(trace_closest)({tree, trace_ray}, from, counts);
-    if (!hit.found()) return {};
-    return hit.best;
-}
-
-}  // namespace
-
-std::optional<Hit> closest_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range,
-                               SingleRayCounts* counts) {
-    return closest(tree, ray, range, kFirstHit, counts);
-}
-
-std::optional<Hit> closest_hit_from(const WideTree& tree, const SpaceRay& ray, DepthRange range,
-                                    const Hit& from) {
-    return closest(tree, ray, range, from, nullptr);
-}
-
-bool any_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range, SingleRayCounts* counts) {
-    TraceRay trace_ray = TraceRay::turned(axis_ray(ray), range);
-    if (!has_numbers(trace_ray)) return false;
-    return HWY_DYNAMIC_DISPATCH(trace_any)({tree, trace_ray}, counts).found;
-}
-
-InTheWay opaque_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range, float near) {
-    TraceRay trace_ray = TraceRay::turned(axis_ray(ray), range);
-    if (!has_numbers(trace_ray)) return InTheWay::Nothing;
-    const FirstOpaque met = HWY_DYNAMIC_DISPATCH(trace_opaque)({tree, trace_ray}, near);
-    return met.opaque ? InTheWay::Opaque : met.layers ? InTheWay::Layers : InTheWay::Nothing;
-}
-
-}  // namespace trapeze
-#endif  // HWY_ONCE
+#endif  // per-target include guard
