@@ -27,7 +27,8 @@ bool copy_variable(const vm::Registers* registers, std::string_view name, rsl::T
         if (parameter.name == name) id = &parameter.id;
     if (!id) return false;
     const rsl::Type own = program.reg(*id).type;
-    if (own.length != type.length || rsl::width_of(own.base) != rsl::width_of(type.base)) return false;
+    if (own.is_unsized() || own.length != type.length || rsl::width_of(own.base) != rsl::width_of(type.base))
+        return false;
     if (type.base == Base::String) {
         if (!text || own.base != Base::String) return false;
         *text = registers->text(*id);

@@ -24,6 +24,7 @@ void raise(std::atomic<float>& maximum, float value) {
 bool same_uniform(const GridVariable* a, const GridVariable* b) {
     if (!a || !b) return a == b;
     if (a->uniform != b->uniform || a->strings != b->strings) return false;
+    if (a->planes.size() != b->planes.size()) return false;
     if (!a->uniform) return true;
     return std::ranges::equal(a->planes, b->planes, [](const auto& x, const auto& y) {
         return x.empty() == y.empty() && (x.empty() || x.front() == y.front());

@@ -74,7 +74,9 @@ RegisterId Generator::add_register(Register::Kind kind, Type type, std::string n
     r.name = std::move(name);
     r.region = kind == Register::Kind::Global || kind == Register::Kind::Parameter ? 0 : region_;
     program_->registers.push_back(std::move(r));
-    return static_cast<RegisterId>(program_->registers.size() - 1);
+    const auto id = static_cast<RegisterId>(program_->registers.size() - 1);
+    if (type.is_unsized()) add_counts(id);
+    return id;
 }
 
 /// One register for each number; NaN, which equals nothing, gets a new one each time. -0 and 0 are equal, and

@@ -164,7 +164,15 @@ std::optional<RegisterId> Generator::rewritten_builtin(const Expression& e, std:
                                {value(*e.children[0]), constant(static_cast<float>(axis))}, into);
             return {};
         case Op::ArrayLength:
-            return number_of_elements(*e.children[0], into);
+            return moved(count_of(value(*e.children[0])), Base::Float, into);
+        case Op::ArrayCapacity:
+        case Op::ArrayPush:
+        case Op::ArrayPop:
+        case Op::ArrayResize:
+        case Op::ArrayReserve:
+            return array_value(e, into);
+        case Op::Spline:
+            return array_spline(e, into);
         case Op::IsOutput:
             return moved(constant(1), Base::Float, into);
         case Op::Unavailable: {
@@ -211,12 +219,6 @@ RegisterId Generator::chain_value(const Expression& e, std::optional<RegisterId>
         result = compute(e.builtin->op, e.type.base, {result, inputs[i]},
                          i + 1 == inputs.size() ? into : std::nullopt);
     return result;
-}
-
-/// A constant: a function is inlined once for each array that it is called with.
-RegisterId Generator::number_of_elements(const Expression& array, std::optional<RegisterId> into) {
-    const int length = program_->reg(value(array)).type.length;
-    return moved(constant(static_cast<float>(length)), Base::Float, into);
 }
 
 /// The matrix of transform([from,] to, ...), where `to` is a name or a matrix. Row vectors: the space on the
@@ -291,7 +293,8 @@ RegisterId Generator::output_place(const Expression& argument, Base base) {
 /// Stores what a function set back into the array's element; variables have been set in place.
 void Generator::write_back(const Expression& argument, RegisterId result) {
     if (argument.kind != Expression::Kind::Element) return;
-    emit(Op::SetElement, {value(*argument.children[0])}, {value(*argument.children[1]), result});
+    const RegisterId array = value(*argument.children[0]);
+    set_element(array, value(*argument.children[1]), result);
 }
 
 /// Arguments are passed by reference, as RISpec says (section 16.1); a parameter that the function changes

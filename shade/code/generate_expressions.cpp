@@ -72,7 +72,7 @@ RegisterId Generator::value(const Expression& e, std::optional<RegisterId> into)
         case Expression::Kind::Element: {
             const RegisterId array = value(*e.children[0]);
             if (!program_->reg(array).type.is_array()) return moved(array, e.type.base, into);
-            return compute(Op::Element, e.type.base, {array, value(*e.children[1])}, into);
+            return element(array, e.type.base, value(*e.children[1]), into);
         }
         case Expression::Kind::Unary: {
             const RegisterId a = value(*e.children[0]);
@@ -107,11 +107,7 @@ RegisterId Generator::moved(RegisterId from, Base base, std::optional<RegisterId
     if (!into || *into == from) return from;
     const Register &source = program_->reg(from), &target = program_->reg(*into);
     if (source.type.is_array() && target.type.is_array()) {
-        const int length = std::min(source.type.length, target.type.length);
-        for (int i = 0; i < length; ++i) {
-            const RegisterId index = constant(static_cast<float>(i));
-            emit(Op::SetElement, {*into}, {index, compute(Op::Element, base, {from, index})});
-        }
+        copy_array(from, *into, base);
         return *into;
     }
     return compute(Op::Move, base, {from}, into);
@@ -201,9 +197,9 @@ RegisterId Generator::assignment_value(const Expression& e) {
         const RegisterId array = value(*target.children[0]), index = value(*target.children[1]);
         RegisterId result = value(source);
         if (e.op != Operator::None)
-            result = combined(e.op, target.type.base, compute(Op::Element, target.type.base, {array, index}),
-                              result, {});
-        emit(Op::SetElement, {array}, {index, result});
+            result =
+                combined(e.op, target.type.base, element(array, target.type.base, index, {}), result, {});
+        set_element(array, index, result);
         return result;
     }
     const RegisterId to = register_of(*target.variable);
@@ -217,13 +213,6 @@ RegisterId Generator::assignment_value(const Expression& e) {
     }
     combined(e.op, target.type.base, to, value(source), to);
     return to;
-}
-
-/// {a, b, ...}: one element after the other, from the first. Elements are set as they are computed, from the
-/// first on: a list that reads its own array sees those set before.
-void Generator::assign_list(const Expression& list, RegisterId array) {
-    for (size_t i = 0; i < list.children.size(); ++i)
-        emit(Op::SetElement, {array}, {constant(static_cast<float>(i)), value(*list.children[i])});
 }
 
 }  // namespace trapeze::rsl

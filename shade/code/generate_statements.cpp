@@ -147,7 +147,10 @@ void Generator::declare_outliving(const Statement& s) {
 /// run.
 void Generator::clear(RegisterId id) {
     const Type type = program_->reg(id).type;
-    if (type.is_array())
+    if (type.is_unsized())
+        for (const RegisterId number : {program_->reg(id).count, program_->reg(id).reserved})
+            emit(Op::Move, {number}, {constant(0)});
+    else if (type.is_array())
         emit(Op::Clear, {id}, {});
     else if (type.base == Base::String)
         moved(constant_text(""), Base::String, id);
@@ -160,10 +163,12 @@ void Generator::clear(RegisterId id) {
 void Generator::initialise(RegisterId id, const Expression& initial) {
     const Type type = program_->reg(id).type;
     if (initial.kind == Expression::Kind::List) {
-        if (initial.children.size() < static_cast<size_t>(type.length)) clear(id);
+        const bool is_short = initial.children.size() < static_cast<size_t>(std::max(type.length, 0));
+        if (is_short || type.is_unsized()) clear(id);
         return assign_list(initial, id);
     }
     if (!type.is_array() || initial.type.is_array()) {
+        if (type.is_unsized()) clear(id);
         value(initial, id);
         return;
     }

@@ -1,5 +1,5 @@
-/// The state of code generation; the work is in generate_expressions.cpp, generate_calls.cpp and
-/// generate_statements.cpp.
+/// The state of code generation; the work is in generate_expressions.cpp, generate_calls.cpp,
+/// generate_arrays.cpp and generate_statements.cpp.
 ///
 /// Every expression becomes instructions that leave its value in a register. A caller that has a place for
 /// the value passes it as `into`, which saves a Move for each assignment; without one the value is where it
@@ -68,7 +68,17 @@ class Generator {
     RegisterId combined(Operator op, Base base, RegisterId a, RegisterId b, std::optional<RegisterId> into);
     /// Without `into` nothing is moved, and the result may be a variable's register: not to be written to.
     RegisterId moved(RegisterId from, Base base, std::optional<RegisterId> into);
+
+    // Arrays, of a length in their type or not: generate_arrays.cpp.
+    void add_counts(RegisterId array);
+    RegisterId count_of(RegisterId array);
+    RegisterId element(RegisterId array, Base base, RegisterId index, std::optional<RegisterId> into);
+    void set_element(RegisterId array, RegisterId index, RegisterId value);
+    void push(RegisterId array, RegisterId value);
+    void copy_array(RegisterId from, RegisterId to, Base base);
     void assign_list(const Expression& list, RegisterId array);
+    RegisterId array_value(const Expression& e, std::optional<RegisterId> into);
+    std::optional<RegisterId> array_spline(const Expression& e, std::optional<RegisterId> into);
 
     // Calls: generate_calls.cpp. The analysis has chosen the overload and converted the arguments.
     RegisterId call_value(const Expression& e, std::optional<RegisterId> into);
@@ -77,7 +87,6 @@ class Generator {
     std::optional<RegisterId> rewritten_builtin(const Expression& e, std::optional<RegisterId> into);
     RegisterId set_part(const Expression& e);
     RegisterId chain_value(const Expression& e, std::optional<RegisterId> into);
-    RegisterId number_of_elements(const Expression& array, std::optional<RegisterId> into);
     RegisterId named_matrix(const Expression* from, const Expression& to);
     RegisterId named_transform_value(const Expression& e, std::optional<RegisterId> into);
     RegisterId map_value(const Expression& e, std::optional<RegisterId> into);

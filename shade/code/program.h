@@ -32,8 +32,11 @@ struct Register {
     };
     Kind kind = Kind::Temporary;
     Type type;
-    bool varying = false;            ///< set by infer_storage()
-    uint32_t region = 0;             ///< where it lives: see Instruction::region
+    bool varying = false;  ///< set by infer_storage()
+    uint32_t region = 0;   ///< where it lives: see Instruction::region
+    /// Of an array of no length in its type: the registers of its number of elements, and of how many were
+    /// reserved.
+    RegisterId count = 0, reserved = 0;
     std::string name;                ///< as in the source; empty for constants and temporaries
     std::vector<float> values;       ///< of a Constant
     std::vector<std::string> texts;  ///< of a Constant of strings

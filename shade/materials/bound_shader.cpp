@@ -60,6 +60,31 @@ void to_camera(float* values, Base base, const M44f& camera_from_shader) {
     for (int k = 0; k < 3; ++k) values[k] = out[k];
 }
 
+/// Elements of a value of this type; `given` of an array of no length in it.
+size_t element_count(const rsl::Type& type, size_t given) {
+    return type.is_unsized() ? given : static_cast<size_t>(std::max(type.length, 1));
+}
+
+std::string& text_of(vm::Registers& registers, const rsl::ProgramParameter& parameter, size_t element) {
+    return parameter.type.is_unsized() ? registers.text_array(parameter.id)[element]
+                                       : registers.text(parameter.id, element);
+}
+
+/// Puts a value into a parameter's register; returns the number of elements that there was room for.
+size_t give_value(vm::Registers& registers, const rsl::ProgramParameter& parameter,
+                  const BoundShader::Value& value) {
+    const size_t width = static_cast<size_t>(rsl::width_of(parameter.type.base));
+    size_t elements = width ? value.floats.size() / width : value.texts.size();
+    if (parameter.type.is_unsized()) elements = registers.set_count(parameter.id, elements);
+    for (size_t e = 0; e < elements; ++e) {
+        if (width)
+            registers.set_uniform(parameter.id, value.floats.data() + e * width, e);
+        else
+            text_of(registers, parameter, e) = value.texts[e];
+    }
+    return elements;
+}
+
 }  // namespace
 
 BoundShader::BoundShader(std::shared_ptr<const vm::Executable> executable, const ShaderInstance& instance,
@@ -77,15 +102,18 @@ BoundShader::BoundShader(std::shared_ptr<const vm::Executable> executable, const
     for (size_t i = 0; i < values_.size(); ++i) {
         const rsl::ProgramParameter& parameter = program.parameters[i];
         Value& value = values_[i];
-        const size_t elements = static_cast<size_t>(std::max(parameter.type.length, 1));
+        size_t elements = element_count(parameter.type, 0);
         const size_t width = static_cast<size_t>(rsl::width_of(parameter.type.base));
         if (take_from_instance(parameter, value, diagnostics)) {
-            for (size_t e = 0; e < elements; ++e) {
-                if (width)
-                    registers.set_uniform(parameter.id, value.floats.data() + e * width, e);
-                else
-                    registers.text(parameter.id, e) = value.texts[e];
-            }
+            elements = give_value(registers, parameter, value);
+            if (elements < std::max(value.floats.size() / std::max<size_t>(width, 1), value.texts.size()) &&
+                diagnostics)
+                diagnostics->warning(
+                    instance.location,
+                    fmt::format("shader \"{}\" is given more elements of \"{}\" than arrays may have: "
+                                "the array is left empty",
+                                instance.name, parameter.name),
+                    fmt::format("shader-parameter-length {} {}", instance.name, parameter.name));
             continue;
         }
         if (executable_->has_run_default(i)) {
@@ -95,8 +123,9 @@ BoundShader::BoundShader(std::shared_ptr<const vm::Executable> executable, const
             continue;
         }
         machine.run_initial(registers, i, context).get();
+        if (parameter.type.is_unsized()) elements = registers.count(parameter.id);
         for (size_t e = 0; e < elements; ++e) {
-            if (!width) value.texts.push_back(registers.text(parameter.id, e));
+            if (!width) value.texts.push_back(text_of(registers, parameter, e));
             const vm::Operand& operand = registers.operand(parameter.id);
             for (size_t k = 0; k < width; ++k)
                 value.floats.push_back(operand.data[e * operand.element_stride + k * operand.stride]);
@@ -108,10 +137,10 @@ bool BoundShader::take_from_instance(const rsl::ProgramParameter& parameter, Val
                                      Diagnostics* diagnostics) const {
     const Parameter* given = instance_.parameters.find(parameter.name);
     if (!given) return false;
-    const size_t elements = static_cast<size_t>(std::max(parameter.type.length, 1));
     const Base base = parameter.type.base;
     const size_t width = static_cast<size_t>(rsl::width_of(base));
     const size_t count = width ? given->floats.size() / std::max<size_t>(width, 1) : given->strings.size();
+    const size_t elements = element_count(parameter.type, count);
     const bool is_suitable = suits(given->declaration.type, base) || looks_like(*given, elements * width);
     if (!is_suitable || count < elements) {
         if (diagnostics)
@@ -139,10 +168,10 @@ bool BoundShader::take_from_instance(const rsl::ProgramParameter& parameter, Val
 const GridVariable* suitable_variable(const ShadingGrid& grid, std::string_view name, rsl::Type type) {
     const GridVariable* variable = grid.find(name);
     if (!variable || !suits(variable->declaration.type, type.base)) return nullptr;
-    const int elements = std::max(type.length, 1);
     if (type.base == Base::String) return variable->strings.empty() ? nullptr : variable;
-    const size_t planes = static_cast<size_t>(elements * rsl::width_of(type.base));
-    if (variable->planes.size() != planes) return nullptr;
+    const size_t width = static_cast<size_t>(rsl::width_of(type.base));
+    const size_t planes = element_count(type, variable->planes.size() / width) * width;
+    if (planes == 0 || variable->planes.size() != planes) return nullptr;
     for (const std::vector<float>& plane : variable->planes)
         if (plane.empty()) return nullptr;
     return variable;
@@ -156,6 +185,10 @@ void BoundShader::set_parameters(vm::Registers& registers, std::span<const Shadi
         const size_t width = static_cast<size_t>(rsl::width_of(parameter.type.base));
         const GridVariable* variable =
             grids.empty() ? nullptr : suitable_variable(*grids.front(), parameter.name, parameter.type);
+        if (!width && parameter.type.is_unsized()) {
+            give_value(registers, parameter, variable ? Value{{}, variable->strings} : value);
+            continue;
+        }
         if (!width) {
             for (size_t e = 0; e < value.texts.size(); ++e)
                 registers.text(id, e) =
@@ -163,10 +196,12 @@ void BoundShader::set_parameters(vm::Registers& registers, std::span<const Shadi
             continue;
         }
         if (!variable) {
-            for (size_t e = 0; e * width < value.floats.size(); ++e)
-                registers.set_uniform(id, value.floats.data() + e * width, e);
+            give_value(registers, parameter, value);
             continue;
         }
+        if (parameter.type.is_unsized() &&
+            registers.set_count(id, variable->planes.size() / width) * width < variable->planes.size())
+            continue;
         const vm::Operand& out = registers.operand(id);
         const bool varying = out.lane_mask != 0;
         const size_t plane = varying ? registers.lanes() : kLanes;

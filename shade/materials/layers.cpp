@@ -27,10 +27,10 @@ const rsl::ProgramParameter* find_parameter(const rsl::Program& program, const s
 }
 
 /// Whether a value of one type can be copied to the other: numbers, triples or matrices of as many elements.
-/// Texts do not travel between layers.
+/// Texts do not travel between layers, nor arrays of no length in their type.
 bool same_kind(const rsl::Type& a, const rsl::Type& b) {
     const int width = rsl::width_of(a.base);
-    return width > 0 && width == rsl::width_of(b.base) && a.length == b.length;
+    return width > 0 && width == rsl::width_of(b.base) && a.length == b.length && !a.is_unsized();
 }
 
 /// The register of a parameter or predefined variable; null when the program names no such variable.

@@ -29,6 +29,7 @@ enum class KernelFamily : uint8_t {
 enum class ContextFamily : uint8_t {
     None,
     Texts,
+    Arrays,
     Names,
     Neighbours,
     Random,
@@ -56,6 +57,8 @@ enum : uint32_t {
     kVaries = 1 << 9,      ///< differs from vertex to vertex even with uniform inputs
     kAsks = 1 << 10,       ///< follows from the point, maps, lights or other shaders besides its inputs
     kRewritten = 1 << 11,  ///< code generation writes it as other operations
+    /// Leaves lanes alone that do not run by itself: its output may get other memory while it runs.
+    kMasksItself = 1 << 15,
     // Predefined variables that it reads without the source naming them.
     kNeedsP = 1 << 12,   ///< P, in front of its inputs; and N, for lights that ask the surface
     kNeedsUV = 1 << 13,  ///< u and v, behind its inputs
@@ -135,6 +138,9 @@ constexpr bool sends_rays(Op op) {
     return op == Op::Gather ||
            (row_of(op).context == ContextFamily::Rays && op != Op::RayInfo && op != Op::RayWay &&
             op != Op::RayLevel && op != Op::RayLabel && op != Op::IsIndirectRay && op != Op::IsShadowRay);
+}
+constexpr bool masks_itself(Op op) {
+    return op_traits::has(op, op_traits::kMasksItself);
 }
 /// Whether the operation may go when nobody reads its outputs.
 constexpr bool is_pure(Op op) {

@@ -13,6 +13,8 @@ ContextOp find_context_op(rsl::Op op) {
             return nullptr;
         case ContextFamily::Texts:
             return find_text_op(op);
+        case ContextFamily::Arrays:
+            return find_array_op(op);
         case ContextFamily::Names:
             return find_named_op(op);
         case ContextFamily::Neighbours:

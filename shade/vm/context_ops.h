@@ -37,6 +37,7 @@ inline WaitingOp waiting_op_in(std::span<const WaitingRow> rows, rsl::Op op) {
 
 // Each returns null for an operation that the family does not have.
 ContextOp find_text_op(rsl::Op op);
+ContextOp find_array_op(rsl::Op op);
 ContextOp find_named_op(rsl::Op op);
 ContextOp find_neighbour_op(rsl::Op op);
 ContextOp find_random_op(rsl::Op op);

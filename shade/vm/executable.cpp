@@ -96,8 +96,8 @@ Executable::Executable(rsl::Program source, const LoopLimits& limits)
 }
 
 /// Gives each register its place: varying ones share planes where they are never alive together, uniform ones
-/// and constants have one block of kLanes floats for each component, texts are strings. Constants are filled
-/// in here, once for all runs.
+/// and constants have one block of kLanes floats for each component, texts are strings. Arrays of no length
+/// in their type get memory in a run. Constants are filled in here, once for all runs.
 void Executable::place_registers() {
     const PlaneSlots slots = assign_plane_slots(program_);
     varying_planes_ = slots.planes;
@@ -106,6 +106,10 @@ void Executable::place_registers() {
         const rsl::Register& r = program_.registers[id];
         Place& place = places_[id];
         place.planes = plane_count(r.type);
+        if (r.type.is_unsized()) {
+            place.growing = static_cast<uint32_t>(growing_.size());
+            growing_.push_back(static_cast<rsl::RegisterId>(id));
+        }
         if (r.type.base == rsl::Base::String) {
             place.kind = Place::Kind::Text;
             place.at = text_count();
@@ -117,6 +121,8 @@ void Executable::place_registers() {
             place.kind = Place::Kind::Constant;
             place.at = constant_planes_;
             constant_planes_ += place.planes;
+        } else if (r.type.is_unsized()) {
+            place.kind = r.varying ? Place::Kind::Varying : Place::Kind::Uniform;
         } else if (r.varying) {
             place.kind = Place::Kind::Varying;
             place.at = slots.first[id];

@@ -66,6 +66,9 @@ struct Place {
     Kind kind = Kind::Uniform;
     uint32_t at = 0;      ///< planes of kLanes floats (Constant, Uniform), planes (Varying), texts
     uint32_t planes = 1;  ///< of all elements together
+    /// Of an array whose memory grows in a run (Registers::grow()): its number among these.
+    uint32_t growing = kNone;
+    static constexpr uint32_t kNone = ~0u;
 };
 
 /// Made once for a program and the parameters that vary, and then run over all grids of the materials that
@@ -84,6 +87,8 @@ class Executable {
     const std::vector<Place>& places() const { return places_; }
     uint32_t uniform_planes() const { return uniform_planes_; }
     uint32_t varying_planes() const { return varying_planes_; }
+    /// Arrays whose memory grows, in the order of Place::growing.
+    const std::vector<rsl::RegisterId>& growing() const { return growing_; }
     uint32_t text_count() const { return static_cast<uint32_t>(texts_.size()); }
     /// kLanes equal floats for each component of each constant, 64-byte aligned.
     const float* constants() const { return constants_.get(); }
@@ -129,6 +134,7 @@ class Executable {
     std::vector<std::vector<Step>> initials_;
     std::vector<rsl::RegisterId> operands_;
     std::vector<Place> places_;
+    std::vector<rsl::RegisterId> growing_;
     std::vector<std::string> texts_;
     std::vector<bool> run_defaults_;
     std::vector<StartValue> start_values_;

@@ -138,9 +138,9 @@ Run::Way Run::way_of(const Step& step) const {
     if (step.masked && !masks_.all()) {
         if (masks_.none()) return Way::NotAtAll;
         // A uniform output has one value for all lanes, and is set whichever of them run.
-        if (step.varying) return Way::ThroughScratch;
+        if (step.varying && !rsl::masks_itself(step.op)) return Way::ThroughScratch;
     }
-    return step.through_scratch ? Way::ThroughScratch : Way::InPlace;
+    return step.through_scratch && !rsl::masks_itself(step.op) ? Way::ThroughScratch : Way::InPlace;
 }
 
 /// Computes into other planes, of which lanes that run are copied (take_back()). Operations know nothing of

@@ -92,6 +92,8 @@ class Run {
         return {at(operand, 0, lane), at(operand, 1, lane), at(operand, 2, lane)};
     }
     void warn(const Step& step, std::string text, std::string kind);
+    /// Counts work on so many elements of an array as steps of the loops around it.
+    void count_elements(size_t elements) { loop_steps_ += static_cast<int64_t>(elements); }
     /// Counts a line of printf(); false when there have been so many that a loop must have gone wrong.
     bool may_print() { return ++printed_ <= kMostPrinted; }
 

@@ -13,7 +13,8 @@ void ask(Run& run, const Step& step, std::span<const Operand> operands) {
     const rsl::RegisterId value = registers.register_of(step, 1);
     const rsl::Type type = registers.reg(value).type;
     bool found = false;
-    if (run.context().messages)
+    // Arrays of no length in their type are not asked for.
+    if (run.context().messages && !type.is_unsized())
         found = run.context().messages->find(
             step.op, registers.text_input(step, 0), type, operands[1],
             type.base == rsl::Base::String ? &registers.text(value) : nullptr, run.current_light());

@@ -14,7 +14,7 @@ using rsl::Register;
 
 /// The instructions during which a register's value is needed: from the first that names it to the last, both
 /// included. A register that no instruction of the code names has first = kNone and gets no planes, unless
-/// others read it after the run.
+/// others read it after the run. Arrays of no length in their type have memory of their own.
 struct Lifetime {
     size_t first = Blocks::kNone, last = 0;
     uint32_t id = 0;
@@ -60,7 +60,8 @@ std::vector<bool> used_by_defaults(const rsl::Program& program) {
 
 }  // namespace
 
-/// One plane for each component of each element; width_of() is 0 for texts, which have none.
+/// One plane for each component of each element, or of one where a run alone knows how many there are;
+/// width_of() is 0 for texts, which have none.
 uint32_t plane_count(const rsl::Type& type) {
     return static_cast<uint32_t>(rsl::width_of(type.base) * std::max(type.length, 1));
 }
@@ -77,7 +78,7 @@ PlaneSlots assign_plane_slots(const rsl::Program& program) {
     const std::vector<bool> in_defaults = used_by_defaults(program);
     for (uint32_t id = 0; id < program.registers.size(); ++id) {
         const Register& r = program.reg(id);
-        if (!r.varying) continue;
+        if (!r.varying || r.type.is_unsized()) continue;
         if (r.kind == Register::Kind::Parameter || r.kind == Register::Kind::Global || in_defaults[id]) {
             slots.first[id] = slots.planes;
             slots.planes += plane_count(r.type);

@@ -52,6 +52,24 @@ class Registers {
         return text(register_of(step, step.outputs + i));
     }
 
+    /// Makes room for so many elements of an array whose memory grows; false when all of the program's
+    /// together would be larger than they may be, and there is as much room as before. Operands are changed
+    /// where they stand.
+    bool grow(rsl::RegisterId id, size_t elements);
+    /// Elements of such an array that there is room for.
+    size_t room(rsl::RegisterId id) const { return growing_[executable_->places()[id].growing].elements; }
+    /// Gives such an array so many elements, whatever they are; none where there is no room. Returns how many
+    /// it has.
+    size_t set_count(rsl::RegisterId id, size_t elements);
+    /// How many it has, in the first lane.
+    size_t count(rsl::RegisterId id) const;
+    std::vector<std::string>& text_array(rsl::RegisterId id) {
+        return growing_[executable_->places()[id].growing].texts;
+    }
+    const std::vector<std::string>& text_array(rsl::RegisterId id) const {
+        return growing_[executable_->places()[id].growing].texts;
+    }
+
     /// Fills a register with one value (its width of floats) for all lanes.
     void set_uniform(rsl::RegisterId id, const float* values, size_t element = 0);
 
@@ -59,7 +77,19 @@ class Registers {
     struct Free {
         void operator()(float* p) const;
     };
+    /// The memory of an array that grows; it is kept from run to run.
+    struct Growing {
+        std::unique_ptr<float, Free> memory;
+        size_t floats = 0;               ///< that there is memory for
+        size_t elements = 0;             ///< that there is room for in this run
+        std::vector<std::string> texts;  ///< in place of memory
+        std::vector<uint32_t> uses;      ///< in operands_
+    };
+    void start_growing();
+
     std::shared_ptr<const Executable> executable_;
+    std::vector<Growing> growing_;
+    size_t grown_ = 0;  ///< floats of a vertex, of all arrays that grow together
     size_t lanes_ = 0, capacity_ = 0;
     std::unique_ptr<float, Free> memory_;
     std::vector<Operand> by_id_, operands_;

@@ -227,25 +227,22 @@ void Analyser::declare(Variable& variable) {
     known = &variable;
 }
 
-/// An array without a length has that of its list of values; bounds keep a shader from wanting all memory.
-/// All arrays of a body are counted together, with those of the functions that are inlined into it: each lane
-/// has them all.
+/// A local array without a length has that of its list of values until something resizes it, and a parameter
+/// of the shader the one that the scene gives; bounds keep a shader from wanting all memory. All arrays of a
+/// body are counted together, with those of the functions that are inlined into it: each lane has them all.
 void Analyser::check_array(Variable& variable) {
     if (!variable.type.is_array()) return;
-    if (variable.type.length == Type::kUnsized) {
-        const bool listed = variable.initial && variable.initial->kind == Expression::Kind::List;
-        if (listed && !variable.initial->children.empty() &&
-            variable.initial->children.size() <= static_cast<size_t>(kLongestArray)) {
-            variable.type.length = static_cast<int>(variable.initial->children.size());
-        } else {
-            // Taken as of length 1 from here on, so that the error is the only one.
-            error(variable.at, "array " + in_quotes(variable.name) + " needs a length");
-            variable.type.length = 1;
-        }
+    const bool listed = variable.initial && variable.initial->kind == Expression::Kind::List &&
+                        !variable.initial->children.empty();
+    if (variable.type.length == Type::kUnsized && variable.kind == Variable::Kind::Local && listed &&
+        variable.initial->children.size() <= static_cast<size_t>(kLongestArray)) {
+        variable.type.length = static_cast<int>(variable.initial->children.size());
+        variable.growable = true;
     }
     // Strings have no floats, yet each costs something.
-    const uint64_t floats = static_cast<uint64_t>(variable.type.length) *
-                            static_cast<uint64_t>(std::max(width_of(variable.type.base), 1));
+    const int length = variable.type.length == Type::kUnsized ? kFloatsOfUnsized : variable.type.length;
+    const uint64_t floats =
+        static_cast<uint64_t>(length) * static_cast<uint64_t>(std::max(width_of(variable.type.base), 1));
     if (floats > kMostArrayFloats)
         error(variable.at, "array " + in_quotes(variable.name) + " is too large: " + std::to_string(floats) +
                                " floats, at most " + std::to_string(kMostArrayFloats));
@@ -273,21 +270,28 @@ void Analyser::value_of_array(Variable& variable) {
     // Without braces: an array that is copied, or one value for all.
     if (variable.initial->kind != Expression::Kind::List) {
         const Expression& from = *variable.initial;
-        const bool is_array = from.kind == Expression::Kind::Variable && find_variable(from.text) &&
-                              find_variable(from.text)->type.is_array();
+        const Variable* named = from.kind == Expression::Kind::Variable ? find_variable(from.text) : nullptr;
+        if (!named && from.kind == Expression::Kind::Variable && body().nested)
+            named = find_outside(from.text, bodies_.size() - 1);
+        const bool is_array = named && named->type.is_array();
         value(variable.initial, is_array ? Base::Void : variable.type.base);
         const Type given = variable.initial->type;
-        if (is_array && (given.base != variable.type.base ||
-                         (given.length != variable.type.length && given.length != Type::kUnsized)))
+        const bool any_length = given.length == Type::kUnsized || variable.type.length == Type::kUnsized;
+        if (!is_array && variable.type.length == Type::kUnsized)
+            error(variable.initial->at,
+                  "array " + in_quotes(variable.name) + " needs a length, or values in braces");
+        if (is_array &&
+            (given.base != variable.type.base || (given.length != variable.type.length && !any_length)))
             error(variable.initial->at, in_quotes(variable.name) + " is a " + print(variable.type) +
                                             ", its initial value a " + print(given));
         return;
     }
     std::vector<ExpressionPtr>& values = variable.initial->children;
-    if (values.size() > static_cast<size_t>(variable.type.length))
-        error(values[static_cast<size_t>(variable.type.length)]->at,
-              std::to_string(values.size()) + " values for the " + std::to_string(variable.type.length) +
-                  " elements of " + in_quotes(variable.name));
+    const size_t most =
+        static_cast<size_t>(variable.type.length == Type::kUnsized ? kLongestArray : variable.type.length);
+    if (values.size() > most)
+        error(values[most]->at, std::to_string(values.size()) + " values for the " + std::to_string(most) +
+                                    " elements of " + in_quotes(variable.name));
     for (ExpressionPtr& e : values) value(e, variable.type.base);
     variable.initial->type = variable.type;
 }

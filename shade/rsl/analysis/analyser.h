@@ -133,6 +133,8 @@ class Analyser {
     /// The only place where casts that the source does not name come into the tree.
     void convert(ExpressionPtr& e, Base to);
     void check_written(const Expression& place);
+    /// Lets an array be resized, by a built-in function or by one that it is passed to as output.
+    void resize(const Expression& array, bool by_builtin);
 
     // Calls.
     /// A cost of Choices::kNever says that the call does not fit.

@@ -84,7 +84,7 @@ TEST(Analysis, ArraysAreBounded) {
               "error 1:86: this array has 3 elements, 0 to 2\n"
               "error 1:93: this array has 3 elements, 0 to 2\n");
     EXPECT_EQ(in_surface("float a[2] = {1, 2, 3};"), "error 1:87: 3 values for the 2 elements of \"a\"\n");
-    EXPECT_EQ(in_surface("float a[];"), "error 1:73: array \"a\" needs a length\n");
+    EXPECT_EQ(in_surface("float a[] = 3;"), "error 1:79: array \"a\" needs a length, or values in braces\n");
     EXPECT_EQ(in_surface("float a[] = {1, 2}; Ci = a[1];"), "");
     EXPECT_EQ(in_surface("matrix a[65536];"),
               "error 1:74: array \"a\" is too large: 1048576 floats, at most 65536\n");
@@ -94,6 +94,26 @@ TEST(Analysis, ArraysAreBounded) {
         said(
             "float sum(float a[]) { return a[0] + a[1]; } surface t() { float b[2] = {1, 2}; Ci = sum(b); }"),
         "");
+}
+
+TEST(Analysis, ArraysWithoutALengthAreResized) {
+    EXPECT_EQ(in_surface("float a[]; push(a, 1); a = {2, 3, 4}; float b[] = a; b = {}; Ci = pop(a);"), "");
+    EXPECT_EQ(in_surface("float a[] = {1, 2}; push(a, 3); Ci = a[2]; a = {1, 2, 3, 4};"), "");
+    EXPECT_EQ(in_surface("float a[] = {1, 2}, b[] = {1}; a = b; Ci = a[2];"), "");
+    EXPECT_EQ(in_surface("float a[] = {1, 2}; Ci = a[2];"),
+              "error 1:94: this array has 2 elements, 0 to 1\n");
+    EXPECT_EQ(in_surface("float a[2]; push(a, 3);"),
+              "error 1:84: array \"a\" has a length of its own, and keeps it: \"a[]\" would declare one that "
+              "can be resized\n");
+    EXPECT_TRUE(
+        in_surface("float a[]; push(a, \"x\");").starts_with("error 1:78: no push takes (float[], string)"));
+    EXPECT_EQ(said("void add(float a[]) { push(a, 1); } surface t() { float b[]; add(b); }"),
+              "error 1:28: array \"a\" cannot be assigned to: it is no output parameter\n");
+    EXPECT_EQ(in_surface("uniform float a[]; push(a, s);"),
+              "warning 1:91: \"a\" is uniform and gets a varying value: it becomes varying\n");
+    std::string many;
+    for (int i = 0; i < 4097; ++i) many += "float a" + std::to_string(i) + "[];";
+    EXPECT_EQ(in_surface(many), "error 1:9: the arrays of this shader are too large together\n");
 }
 
 TEST(Analysis, UniformVariablesBecomeVarying) {

@@ -15,8 +15,7 @@ namespace {
 constexpr size_t kMostCandidatesShown = 8;  // some names have dozens
 
 // Functions of later renderers; known to be missing here.
-constexpr std::string_view kNotSupported[] = {"blinn", "cosinelight_rate", "getlights", "hair", "push",
-                                              "pop"};
+constexpr std::string_view kNotSupported[] = {"blinn", "cosinelight_rate", "getlights", "hair"};
 
 /// Functions whose first argument names a file, and may choose a channel of it: "name"[2].
 bool is_map(const Builtin& builtin) {
@@ -301,6 +300,7 @@ void Analyser::choose_argument(Expression& call, size_t i, const Signature& sign
     }
     if (parameter->output) {
         check_written(*argument);
+        if (parameter->type.is_array()) resize(*argument, signature.builtin != nullptr);
         if (argument->kind == Expression::Kind::Element) choose_type(argument, argument->type.base);
     } else if (!parameter->type.is_array() && !parameter->any_array) {
         choose_type(argument, parameter->type.base);

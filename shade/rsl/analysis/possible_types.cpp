@@ -292,13 +292,19 @@ Choices Analyser::component_assignment_types(Expression& e) {
     return call_types(e);
 }
 
+/// Whether an array is a variable that has only the length of its first values.
+static bool is_growable(const Expression& array) {
+    return array.kind == Expression::Kind::Variable && array.variable && array.variable->growable;
+}
+
 /// a = b or a = {1, 2, 3}. Whole arrays have no choices: their type is that of the left side, and no
 /// conversion makes another.
 Choices Analyser::array_assignment_types(Expression& e) {
     const Expression &left = *e.children[0], &right = *e.children[1];
     if (right.kind == Expression::Kind::List) {
         for (const ExpressionPtr& child : right.children) possible_types(*child);
-        if (left.type.length > 0 && right.children.size() > static_cast<size_t>(left.type.length))
+        if (left.type.length > 0 && right.children.size() > static_cast<size_t>(left.type.length) &&
+            !is_growable(left))
             error(right.at, std::to_string(right.children.size()) + " values for the " +
                                 std::to_string(left.type.length) + " elements of an array");
     } else if (possible_types(*e.children[1]).is_unknown()) {
@@ -307,14 +313,30 @@ Choices Analyser::array_assignment_types(Expression& e) {
     const bool fits = right.kind == Expression::Kind::List ||
                       (right.type.is_array() && right.type.base == left.type.base &&
                        (right.type.length == left.type.length || right.type.length == Type::kUnsized ||
-                        left.type.length == Type::kUnsized));
+                        left.type.length == Type::kUnsized || is_growable(left)));
     if (!fits || e.op != Operator::None || left.kind != Expression::Kind::Variable) {
         error(e.at, "an array is assigned an array of its type and length, or values in braces");
         return Choices::unknown();
     }
     check_written(left);
+    const bool keeps_length = right.kind == Expression::Kind::List
+                                  ? right.children.size() == static_cast<size_t>(left.type.length)
+                                  : right.type.length == left.type.length;
+    if (!keeps_length) resize(left, false);
     e.type = left.type;
     return {};
+}
+
+/// Arrays that have the length of their first values have none of their own from here on. An index behind
+/// those values that stood before is an error already.
+void Analyser::resize(const Expression& array, bool by_builtin) {
+    Variable* const variable = array.variable;
+    if (!variable || variable->type.length == Type::kUnsized) return;
+    if (variable->growable)
+        variable->type.length = Type::kUnsized;
+    else if (by_builtin)
+        error(array.at, "array \"" + variable->name + "\" has a length of its own, and keeps it: \"" +
+                            variable->name + "[]\" would declare one that can be resized");
 }
 
 /// The type of the variable, if the value can become it. Where what is assigned to is a component, the

@@ -58,6 +58,9 @@ struct Variable {
     /// Declared in a statement without braces (`if (a) float x = 1;`): it lives on behind that, where it was
     /// 0 before.
     bool outlives = false;
+    /// An array whose length is only that of its first values: it gets none of its own once something resizes
+    /// it.
+    bool growable = false;
     bool copied = false;  ///< a predefined variable that is only read, yet assigned to: the shader has a copy
     ExpressionPtr initial;  ///< default or initial value; may be null. An array's is a List.
     SourceLocation at;
@@ -71,6 +74,8 @@ inline constexpr int kDeepestNesting = 256;
 inline constexpr int kLongestArray = 65536;
 inline constexpr int kMostArrayFloats = 65536;
 inline constexpr int kMostArrayFloatsTogether = 4 * kMostArrayFloats;
+/// Floats that an array of no length of its own counts for, so that there are not too many of them.
+inline constexpr int kFloatsOfUnsized = 64;
 /// Code generation recurses through statements, expressions and calls alike; this many fit on any thread's
 /// stack.
 inline constexpr int kDeepestInlined = 1500;

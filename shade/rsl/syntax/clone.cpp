@@ -22,7 +22,7 @@ ExpressionPtr clone(const ExpressionPtr& e) {
 
 namespace {
 
-/// `outlives` and `copied` are the analysis' to set, and start anew.
+/// `outlives`, `growable` and `copied` are the analysis' to set, and start anew.
 std::unique_ptr<Variable> clone(const Variable& v) {
     auto copy = std::make_unique<Variable>();
     copy->name = v.name;

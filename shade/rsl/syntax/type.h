@@ -21,13 +21,16 @@ enum class ShaderKind : uint8_t { Surface, Displacement, Light, Volume, Imager }
 /// when both fields are, so an array of any length is equal to none of a known length. Arrays have one
 /// dimension, as in the language.
 struct Type {
-    static constexpr int kUnsized = -1;  ///< `float a[]`: a function's array parameter of any length
+    /// `float a[]`: an array whose length is known only in a run: one that may be resized, or a function's
+    /// parameter.
+    static constexpr int kUnsized = -1;
 
     Base base = Base::Void;
     int length = 0;  ///< elements of an array; 0: not an array
 
     /// Arrays of a length that is not known yet are arrays too.
     bool is_array() const { return length != 0; }
+    bool is_unsized() const { return length == kUnsized; }
     bool is_triple() const {
         return base == Base::Color || base == Base::Point || base == Base::Vector || base == Base::Normal;
     }
