@@ -96,6 +96,7 @@ RegisterId Generator::value(const Expression& e, std::optional<RegisterId> into)
         case Expression::Kind::Assignment:
             return moved(assignment_value(e), e.type.base, into);
         case Expression::Kind::List:
+        case Expression::Kind::Member:
             break;
     }
     return constant(0);

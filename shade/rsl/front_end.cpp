@@ -1,6 +1,7 @@
 #include "shade/rsl/front_end.h"
 
 #include "shade/rsl/analysis/analysis.h"
+#include "shade/rsl/syntax/flatten_structs.h"
 #include "shade/rsl/syntax/parser.h"
 #include "shade/rsl/syntax/preprocessor.h"
 #include "shade/rsl/syntax/reporter.h"
@@ -36,6 +37,8 @@ std::unique_ptr<TranslationUnit> compile_front(const Source& source, const Compi
     Reporter reporter(diagnostics);
     std::unique_ptr<TranslationUnit> unit = parse_with(source, options, reporter);
     // What the parser lost would be missed again.
+    if (reporter.failed()) return nullptr;
+    flatten_structs(*unit, reporter);
     if (reporter.failed()) return nullptr;
     analyse(*unit, reporter);
     return reporter.failed() ? nullptr : std::move(unit);

@@ -1,5 +1,6 @@
-// Arrays that are resized, where all lanes do the same and where they part, with and without the optimiser. s
-// runs over 0, 1/3, 2/3, 1 and t over 0, 1/2, 1; the expected values are worked out by hand.
+// Arrays that are resized, and structs, which may hold them: where all lanes do the same and where they part,
+// with and without the optimiser. s runs over 0, 1/3, 2/3, 1 and t over 0, 1/2, 1; the expected values are
+// worked out by hand.
 #include "shade/materials/shader_folder_harness.h"
 #include "shade/vm/run_shader_harness.h"
 
@@ -148,6 +149,67 @@ TEST(Arrays, AreBounded) {
     EXPECT_EQ(said("uniform matrix a[]; uniform float i; for (i = 0; i < 4100; i += 1) push(a, 1); "
                    "r = comp(a[4096], 0, 0);"),
               "test.sl:1:112: error: " + too_large);
+}
+
+const std::string kStructs =
+    "struct Float2 { float x = 0, y = 2; }; "
+    "struct Layer { varying color c = 1; float few[2] = {3, 4}; Float2 at; string name = \"n\"; varying float "
+    "grown[]; } "
+    "Float2 swapped(Float2 a) { return Float2(a->y, a->x); } "
+    "Float2 either(float i) { Float2 a = Float2(1, 2); if (i > 1) return a; return Float2(3); } "
+    "Float2 again(Float2 a) { return swapped(a); } "
+    "void change(output Layer l; Float2 by) { l->at->x += by->x; l->few[1] *= 2; push(l->grown, by->y); } ";
+
+TEST(Structs, HaveDefaultsAndAreConstructed) {
+    expect_values(
+        "Float2 a, b = Float2(5), c = Float2(6, 7), d = Float2(\"y\", 8); "
+        "r = a->x + a->y + 10 * (b->x + b->y) + 100 * (c->x * c->y) + 10000 * (d->x + d->y);",
+        [](float, float) { return 84272; }, 0, kStructs);
+    expect_values(
+        "Layer l = Layer(color (s, 1, 2), {8, 9}, Float2(4)); if (l->name == \"n\") r = 1; "
+        "r += 10 * l->few[1] + 100 * l->at->x + 1000 * l->at->y + comp(l->c, 0);",
+        [](float s, float) { return 2491 + s; }, 1e-3f, kStructs);
+    expect_values(
+        "Float2 k = Float2(1, 2); k = Float2(); r = k->x + 10 * k->y;", [](float, float) { return 20; }, 0,
+        kStructs);
+}
+
+TEST(Structs, AreAssigned) {
+    expect_values(
+        "Float2 a = Float2(1, 2), b = a; a = Float2(a->y, a->x); b->x += 4; r = a->x + 10 * a->y + 100 * b->x;",
+        [](float, float) { return 512; }, 0, kStructs);
+    expect_values(
+        "Layer a, b; b->few[0] = 7; push(b->grown, s); b->at = Float2(5, 6); a = b; b->few[0] = 8; "
+        "r = a->few[0] + 10 * a->at->y + 100 * arraylength(a->grown) + a->grown[0];",
+        [](float s, float) { return 167 + s; }, 1e-4f, kStructs);
+    expect_values(
+        "varying Float2 a; if (s > 0.5) a = Float2(3, t); r = a->x + 10 * a->y;",
+        [](float s, float t) { return s > 0.5f ? 3 + 10 * t : 20; }, 0, kStructs);
+}
+
+TEST(Structs, GoToFunctionsAndComeBack) {
+    expect_values(
+        "Layer l; Float2 by = Float2(4, 5); change(l, by); change(l, Float2(\"x\", 6)); "
+        "r = l->at->x + 100 * l->few[1] + 10000 * l->grown[0] + 100000 * l->grown[1];",
+        [](float, float) { return 251610; }, 0, kStructs);
+    expect_values(
+        "Float2 a = Float2(1, 2); a = swapped(a); Float2 b = again(a); swapped(b); r = a->x + 10 * b->x;",
+        [](float, float) { return 12; }, 0, kStructs);
+    expect_values(
+        "Float2 a = either(2), b = either(0); r = a->x + 10 * a->y + 100 * b->x + 1000 * b->y;",
+        [](float, float) { return 2321; }, 0, kStructs);
+}
+
+TEST(Structs, AreMembersOfClasses) {
+    ShaderRun run(
+        kStructs +
+        "class test(output varying float r = 0;) { Layer l; Float2 m = Float2(3, 4); "
+        "public void begin() { l->c = s; m = swapped(m); } "
+        "public void surface(output color Ci, Oi) { r = comp(l->c, 1) + 10 * m->x + 100 * sum(m); } "
+        "float sum(Float2 a) { return a->x + a->y; } }");
+    run.run();
+    EXPECT_EQ(run.messages(), "");
+    for (size_t i = 0; i < run.vertices(); ++i) EXPECT_NEAR(run.at("r", i), 740 + run.grid().s[i], 1e-4f);
 }
 
 /// Parameters without a length have as many elements as the scene gives.

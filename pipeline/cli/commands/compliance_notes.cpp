@@ -80,7 +80,7 @@ constexpr Capability kCapabilities[] = {
     {"Spectral Colors", "supported with limits", "ColorSamples converts to three samples when RIB is read."},
     {"Programmable Shading", "supported",
      "RenderMan Shading Language 3.2: surface, displacement, light, volume and imager shaders; of RSL 2 classes that "
-     "are shaders, without structs and co-shaders."},
+     "are shaders, structs and resizable arrays, without co-shaders."},
     {"Volume Shading", "supported with limits",
      "Atmosphere shaders run at visible points; there is no volume between the surfaces that a sample of the camera "
      "sees one behind the other. Interior and Exterior run along rays of shaders, from surface to surface: Interior not "

@@ -63,6 +63,7 @@ void Analyser::give_type(Expression& e, Base base) {
         case Expression::Kind::Text:
         case Expression::Kind::Variable:
         case Expression::Kind::List:
+        case Expression::Kind::Member:
             break;
         // The array has its type from its declaration; a texture's name with a channel is a text.
         case Expression::Kind::Element:

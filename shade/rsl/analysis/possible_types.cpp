@@ -83,6 +83,8 @@ Choices Analyser::possible_types_within(Expression& e) {
             return call_types(e);
         case Expression::Kind::Assignment:
             return assignment_types(e);
+        case Expression::Kind::Member:
+            break;
     }
     return Choices::unknown();
 }

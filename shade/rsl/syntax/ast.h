@@ -18,6 +18,7 @@ namespace trapeze::rsl {
 
 struct Builtin;   // builtins.h
 struct Function;  // below
+struct Struct;    // below
 struct Expression;
 struct Statement;
 using ExpressionPtr = std::unique_ptr<Expression>;
@@ -52,7 +53,8 @@ struct Variable {
     Type type;
     Storage storage = Storage::Unspecified;
     Kind kind = Kind::Local;
-    bool output = false;  ///< a shader's output parameter, or a function's
+    const Struct* structure = nullptr;  ///< of a struct: `type` says nothing (flatten_structs.h)
+    bool output = false;                ///< a shader's output parameter, or a function's
     /// Names a variable of outside (`extern`). The analysis takes such declarations out of the tree.
     bool external = false;
     /// Declared in a statement without braces (`if (a) float x = 1;`): it lives on behind that, where it was
@@ -76,6 +78,9 @@ inline constexpr int kMostArrayFloats = 65536;
 inline constexpr int kMostArrayFloatsTogether = 4 * kMostArrayFloats;
 /// Floats that an array of no length of its own counts for, so that there are not too many of them.
 inline constexpr int kFloatsOfUnsized = 64;
+/// Members of a struct with those of structs in it, and how deep these may nest.
+inline constexpr int kMostMembers = 1024;
+inline constexpr int kDeepestStruct = 16;
 /// Code generation recurses through statements, expressions and calls alike; this many fit on any thread's
 /// stack.
 inline constexpr int kDeepestInlined = 1500;
@@ -98,6 +103,7 @@ struct Expression {
         Cast,         ///< child 0 to `type`, from the space `text` when it is not empty
         Call,         ///< children are the arguments, in order, named optional ones included
         Assignment,   ///< child 0 becomes child 1, or (`op`) child 0 op child 1
+        Member,       ///< child 0 -> `text`: of a struct, none are left for the analysis
     };
     Kind kind = Kind::Number;
     Operator op = Operator::None;
@@ -151,11 +157,27 @@ inline bool is_gather_output(const Expression& name) {
            !name.text.starts_with("send:");
 }
 
+/// A struct of RSL 2. Values of its members are defaults; members that are structs have been defined before.
+struct Struct {
+    std::string name;
+    std::vector<std::unique_ptr<Variable>> members;
+    int pieces = 0;  ///< members with those of structs in it
+    int depth = 1;   ///< of structs in structs
+    SourceLocation at;
+
+    const Variable* find(std::string_view member) const {
+        for (const auto& variable : members)
+            if (variable->name == member) return variable.get();
+        return nullptr;
+    }
+};
+
 /// A function of the source's own. Its parameters are references to the caller's variables (RISpec 3.2,
 /// section 16.1).
 struct Function {
     std::string name;
     Type result;
+    const Struct* result_structure = nullptr;  ///< it returns a struct: `result` says nothing
     std::vector<std::unique_ptr<Variable>> parameters;
     StatementPtr body;
     SourceLocation at;
@@ -183,6 +205,7 @@ struct Shader {
 /// with its functions in place of their calls below kMostInlined. After the analysis `functions` has one copy
 /// for each shader that calls them, since what they name outside differs; those never called are gone.
 struct TranslationUnit {
+    std::vector<std::unique_ptr<Struct>> structs;
     std::vector<std::unique_ptr<Function>> functions;
     std::vector<std::unique_ptr<Shader>> shaders;
 };

@@ -144,6 +144,7 @@ Parser::ClassParts Parser::class_parts() {
 /// Who may use a member makes no difference where nobody else can.
 void Parser::class_member(ClassParts& parts) {
     if (accept(";")) return;
+    if (at_struct()) return struct_definition();
     while (at_any({"public", "private"}) && ahead(1).kind == Token::Kind::Name) take();
     const bool constant = at("constant") && ahead(1).kind == Token::Kind::Name;
     if (constant) take();

@@ -65,7 +65,8 @@ ExpressionPtr Parser::expression() {
     const BinaryOperator* row = find(kAssignments, now());
     if (!row) return left;
     const Token& mark = take();
-    if (left->kind != Expression::Kind::Variable && left->kind != Expression::Kind::Element)
+    if (left->kind != Expression::Kind::Variable && left->kind != Expression::Kind::Element &&
+        left->kind != Expression::Kind::Member)
         fail(mark, "only variables, elements and components can be assigned to");
     ExpressionPtr assignment = make(Expression::Kind::Assignment, mark);
     assignment->op = row->op;
@@ -145,11 +146,18 @@ ExpressionPtr Parser::cast() {
     return finished(std::move(e));
 }
 
-/// Elements: a[i], m[i][j]. Elements and components alike; which of the two an index means depends on the
-/// type, which the parser does not know.
+/// Elements: a[i], m[i][j], and members of structs: a->x. Elements and components alike; which of the two an
+/// index means depends on the type, which the parser does not know.
 ExpressionPtr Parser::postfix() {
     ExpressionPtr e = primary();
-    while (at("[")) {
+    while (at("[") || (at("->") && ahead(1).kind == Token::Kind::Name && !ahead(2).is("("))) {
+        if (at("->")) {
+            ExpressionPtr member = make(Expression::Kind::Member, take());
+            member->text = take().text;
+            member->children.push_back(std::move(e));
+            e = finished(std::move(member));
+            continue;
+        }
         ExpressionPtr element = make(Expression::Kind::Element, take());
         element->children.push_back(std::move(e));
         element->children.push_back(expression());
@@ -205,12 +213,13 @@ ExpressionPtr Parser::parentheses() {
 }
 
 /// "(" ... ")", of a call as of a parenthesis: a comma behind the last value is let pass. Macros that join
-/// arguments leave such commas.
+/// arguments leave such commas. Values in braces are those of arrays in structs; elsewhere the analysis
+/// refuses them.
 std::vector<ExpressionPtr> Parser::arguments() {
     std::vector<ExpressionPtr> values;
     expect("(", "before arguments");
     while (!at(")") && !at_end()) {
-        values.push_back(expression());
+        values.push_back(initial_value());
         if (!at(")")) expect(",", "or \")\" after an argument");
     }
     expect(")", "after arguments");

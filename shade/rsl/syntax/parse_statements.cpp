@@ -43,6 +43,11 @@ StatementPtr Parser::statement_within() {
     if (at("{")) return block();
     if (at(";")) return make(Statement::Kind::Empty, take());
     if (now().kind == Token::Kind::Name) {
+        if (at_struct()) {
+            StatementPtr place = make(Statement::Kind::Empty, now());
+            struct_definition();
+            return place;
+        }
         refuse_rsl2();
         if (at("if")) return if_statement();
         if (at("while")) return while_statement();
@@ -86,7 +91,7 @@ bool Parser::at_function() const {
     while (tokens_[name].is("uniform") || tokens_[name].is("varying")) ++name;
     // A "void" is always a function's; another type may be a cast of a call, which no "{" follows.
     const bool is_void = tokens_[name].is("void");
-    if (!is_void && base_named(tokens_[name].text) == Base::Void) return false;
+    if (!is_void && base_named(tokens_[name].text) == Base::Void && !struct_named(name)) return false;
     ++name;
     if (tokens_[name].kind != Token::Kind::Name || is_reserved(tokens_[name].text) ||
         !tokens_[name + 1].is("("))
@@ -98,6 +103,7 @@ bool Parser::at_function() const {
 /// call.
 bool Parser::at_declaration() const {
     if (at_any({"extern", "output", "uniform", "varying"})) return true;
+    if (struct_named(next_)) return !ahead(2).is("(");
     if (base_named(now().text) == Base::Void) return false;
     const size_t name = ahead(1).kind == Token::Kind::Text ? 2 : 1;
     if (ahead(name).kind != Token::Kind::Name || base_named(ahead(name).text) != Base::Void) return false;

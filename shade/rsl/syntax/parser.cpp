@@ -37,6 +37,10 @@ std::unique_ptr<TranslationUnit> Parser::unit() {
         while (!at_end() && !reporter_.full()) {
             try {
                 if (accept(";") || skip_plugin()) continue;
+                if (at_struct()) {
+                    struct_definition();
+                    continue;
+                }
                 if (at_class()) {
                     class_definition();
                     continue;
@@ -163,16 +167,15 @@ bool Parser::skip_plugin() {
 /// What RenderMan's second shading language adds is said to be missing once. Words that RSL 2 reserves are
 /// names in RSL 1: each is taken for RSL 2 only where what follows could be nothing else.
 void Parser::refuse_rsl2() {
-    const bool struct_ = at("struct") && ahead(1).kind == Token::Kind::Name && ahead(2).is("{");
     const bool plugin = at("plugin") && ahead(1).kind == Token::Kind::Text;
     const bool public_ = (at("public") || at("method") || at("constant") || at("private")) &&
                          ahead(1).kind == Token::Kind::Name && !ahead(1).is("=") && !ahead(2).is(".");
     const bool handle = at("shader") && ahead(1).kind == Token::Kind::Name;
     const bool member = at("->") || at("::");
-    if (!at_class() && !struct_ && !plugin && !public_ && !handle && !member) return;
+    if (!at_class() && !plugin && !public_ && !handle && !member) return;
     reporter_.error(now().at, shown(now()) +
-                                  " belongs to RSL 2, of which classes that are shaders are "
-                                  "supported, but no structs, co-shaders and plugins");
+                                  " belongs to RSL 2, of which structs and classes that are shaders "
+                                  "are supported, but no co-shaders and plugins");
     throw Hopeless();
 }
 
@@ -188,7 +191,8 @@ void Parser::definition() {
     // Looks past the words and the type for "name (": a function; then begins again from them.
     const size_t before = next_;
     while (at_any({"uniform", "varying", "extern", "output"})) take();
-    const size_t name = next_ + (base_named(now().text) != Base::Void || at("void") ? 1 : 0);
+    const bool typed = base_named(now().text) != Base::Void || at("void") || struct_named(next_);
+    const size_t name = next_ + (typed ? 1 : 0);
     next_ = before;
     if (tokens_[name].kind == Token::Kind::Name && name + 1 < tokens_.size() && tokens_[name + 1].is("("))
         return function("");
@@ -219,7 +223,8 @@ void Parser::shader() {
 void Parser::function(std::string inside) {
     auto function = std::make_unique<Function>();
     while (at_any({"uniform", "varying", "extern", "output"})) take();
-    const bool typed = base_named(now().text) != Base::Void || at("void");
+    function->result_structure = struct_named(next_);
+    const bool typed = base_named(now().text) != Base::Void || at("void") || function->result_structure;
     function->typed = typed;
     if (typed) function->result.base = base_named(take().text);
     function->at = now().at;
@@ -267,8 +272,8 @@ std::vector<std::unique_ptr<Variable>> Parser::formals(Variable::Kind kind) {
 }
 
 bool Parser::at_specifier() const {
-    return now().kind == Token::Kind::Name &&
-           (at_any({"output", "extern", "uniform", "varying"}) || base_named(now().text) != Base::Void);
+    return now().kind == Token::Kind::Name && (at_any({"output", "extern", "uniform", "varying"}) ||
+                                               base_named(now().text) != Base::Void || struct_named(next_));
 }
 
 /// output, extern, uniform and varying in any order, and then the type. RISpec has an order for these words,
@@ -289,7 +294,8 @@ Parser::Specifier Parser::specifier() {
         }
     }
     specifier.base = base_named(now().text);
-    if (now().kind != Token::Kind::Name || specifier.base == Base::Void) {
+    specifier.structure = struct_named(next_);
+    if (now().kind != Token::Kind::Name || (specifier.base == Base::Void && !specifier.structure)) {
         refuse_rsl2();
         fail_expecting("a type");
     }
@@ -307,9 +313,11 @@ std::unique_ptr<Variable> Parser::declarator(const Specifier& specifier, Variabl
     variable->name = new_name("a variable's name");
     variable->kind = kind;
     variable->type.base = specifier.base;
+    variable->structure = specifier.structure;
     variable->storage = specifier.storage;
     variable->output = specifier.output;
     variable->external = specifier.external;
+    if (at("[") && specifier.structure) fail(now(), "arrays of structs are not supported");
     if (accept("[")) variable->type.length = array_length();
     if (accept("=")) variable->initial = initial_value();
     return variable;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <map>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -16,10 +17,11 @@ namespace trapeze::rsl {
 /// reporter.failed() is false.
 std::unique_ptr<TranslationUnit> parse_tokens(const TokenStream& stream, Reporter& reporter);
 
-/// The parser's state. parser.cpp has definitions, parse_classes.cpp, parse_statements.cpp and
-/// parse_expressions.cpp the rest. A token is looked at as often as it takes and taken once; there is no
-/// going back but in at_...(), definition() and class_definition(), which look ahead by index. Functions
-/// named for a rule read that rule from now() on, and leave the token behind it as the next.
+/// The parser's state. parser.cpp has definitions, parse_structs.cpp, parse_classes.cpp,
+/// parse_statements.cpp and parse_expressions.cpp the rest. A token is looked at as often as it takes and
+/// taken once; there is no going back but in at_...(), definition() and class_definition(), which look ahead
+/// by index. Functions named for a rule read that rule from now() on, and leave the token behind it as the
+/// next.
 class Parser {
   public:
     Parser(const std::vector<Token>& tokens, Reporter& reporter);
@@ -33,6 +35,7 @@ class Parser {
     /// What stands before a variable's name.
     struct Specifier {
         Base base = Base::Void;
+        const Struct* structure = nullptr;
         Storage storage = Storage::Unspecified;
         bool output = false, external = false;
     };
@@ -78,6 +81,13 @@ class Parser {
     ExpressionPtr initial_value();
     /// Lengths of arrays are needed while parsing, before there is an analysis to fold constants.
     static bool constant_value(const Expression& e, double& value);
+
+    // Structs: parse_structs.cpp. flatten_structs.h takes them apart.
+    bool at_struct() const;
+    void struct_definition();
+    void struct_members(Struct& made);
+    /// The struct that a token names as the type of what follows; null for others.
+    const Struct* struct_named(size_t token) const;
 
     // Classes: parse_classes.cpp.
     bool at_class() const;
@@ -125,8 +135,9 @@ class Parser {
     const std::vector<Token>& tokens_;
     Reporter& reporter_;
     std::unique_ptr<TranslationUnit> unit_ = std::make_unique<TranslationUnit>();
-    std::string inside_;          // the shader or function whose body is read
-    bool returns_value_ = false;  // it has a "return" with a value
+    std::map<std::string, const Struct*, std::less<>> structs_;  // defined so far
+    std::string inside_;                                         // the shader or function whose body is read
+    bool returns_value_ = false;                                 // it has a "return" with a value
     size_t next_ = 0;
     int nesting_ = 0;
 };

@@ -101,11 +101,23 @@ class Printer {
     std::string text;
 
     void function(const Function& f) {
-        text += f.result.base == Base::Void ? "void" : std::string(name_of(f.result.base));
+        text += f.result_structure            ? f.result_structure->name
+                : f.result.base == Base::Void ? "void"
+                                              : std::string(name_of(f.result.base));
         text += " " + f.name;
         head(f.parameters);
         block(*f.body);
         text += '\n';
+    }
+
+    void structure(const Struct& s) {
+        text += "struct " + s.name + " {";
+        for (const auto& member : s.members) {
+            text += ' ';
+            variable(*member);
+            text += ';';
+        }
+        text += " }\n";
     }
 
     void shader(const Shader& s) {
@@ -143,7 +155,14 @@ class Printer {
     void variable(const Variable& v) {
         if (v.external) text += "extern ";
         if (v.output) text += "output ";
-        text += print(Type{v.type.base, 0}, v.storage) + " ";
+        if (v.structure) {
+            const std::string_view storage = v.storage == Storage::Uniform   ? "uniform "
+                                             : v.storage == Storage::Varying ? "varying "
+                                                                             : "";
+            text += std::string(storage) + v.structure->name + " ";
+        } else {
+            text += print(Type{v.type.base, 0}, v.storage) + " ";
+        }
         declarator(v);
     }
 
@@ -283,6 +302,10 @@ void Printer::bare(const Expression& e) {
             expression(*e.children[1]);
             text += ']';
             break;
+        case Expression::Kind::Member:
+            expression(*e.children[0], kPrimary);
+            text += "->" + e.text;
+            break;
         case Expression::Kind::Unary:
             text += written(e.op).mark;
             expression(*e.children[0], kUnary);
@@ -398,15 +421,23 @@ std::string print(const Type& type, Storage storage) {
     return text;
 }
 
+std::string print(const Struct& structure) {
+    Printer printer;
+    printer.structure(structure);
+    return printer.text;
+}
+
 std::string print(const Expression& expression) {
     Printer printer;
     printer.expression(expression);
     return printer.text;
 }
 
-/// Nested functions are printed with the shader that they stand in, all others before any shader.
+/// Structs first. Nested functions are printed with the shader that they stand in, all others before any
+/// shader.
 std::string print(const TranslationUnit& unit) {
     Printer printer;
+    for (const auto& structure : unit.structs) printer.structure(*structure);
     for (const auto& function : unit.functions)
         if (function->inside.empty()) printer.function(*function);
     for (const auto& shader : unit.shaders) printer.shader(*shader);

@@ -1,0 +1,31 @@
+/// What structs are taken apart into.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "shade/rsl/syntax/ast.h"
+
+namespace trapeze::rsl {
+
+/// A member that is no struct, and its name behind that of the variable that it is in: "->x", "->inner->x".
+struct Leaf {
+    std::string name;
+    const Variable* member;
+};
+
+/// In the order of the source, those of structs in it among them.
+std::vector<Leaf> leaves_of(const Struct& structure);
+
+ExpressionPtr new_expression(Expression::Kind kind, std::string text, SourceLocation at);
+StatementPtr new_statement(Statement::Kind kind, SourceLocation at);
+/// variable = value;
+StatementPtr assignment_of(const std::string& variable, ExpressionPtr value, SourceLocation at);
+
+/// The value that a variable without one has.
+ExpressionPtr nothing_in(const Variable& member, SourceLocation at);
+
+/// Whether an expression names a variable whose name begins so.
+bool names_any(const Expression& e, const std::string& beginning);
+
+}  // namespace trapeze::rsl
