@@ -200,6 +200,25 @@ TEST(Structs, GoToFunctionsAndComeBack) {
         [](float, float) { return 2321; }, 0, kStructs);
 }
 
+TEST(Structs, HaveMethods) {
+    const std::string effects =
+        "struct Field { varying float k = 1; float n = 2; void begin() { k = 3 * n; } "
+        "float twice(float x) { return 2 * x; } } "
+        "struct Effect : Field { varying color tint = 1; private varying float e = 0; Float2 at; varying float all[]; "
+        "public void begin() { Field::begin(); e = k; at = Float2(at->y, at->x); push(all, 7); } "
+        "float field(float f) { return twice(e * f) + other(); } "
+        "float field(float f; color c) { return e * f * comp(c, 0); } "
+        "float other() { return at->x; } Float2 where() { return at; } } ";
+    // k = 6, at = (2, 0): 12 s + 2, and 6 * 2.
+    expect_values(
+        "Effect m; m->begin(); Float2 w = m->where(); w = m->where(); "
+        "r = m->field(s) + 100 * m->field(1, color (2)) + 10000 * w->x + 100000 * m->all[0];",
+        [](float s, float) { return 721202 + 12 * s; }, 0.1f, kStructs + effects);
+    expect_values(
+        "Effect m, n; m->n = 5; m->begin(); n->begin(); r = m->k + 100 * n->k;",
+        [](float, float) { return 615; }, 0, kStructs + effects);
+}
+
 TEST(Structs, AreMembersOfClasses) {
     ShaderRun run(
         kStructs +

@@ -101,9 +101,10 @@ struct Expression {
         Sixteen,      ///< a matrix of 16 floats
         List,         ///< {a, b, ...}: an array's initial value
         Cast,         ///< child 0 to `type`, from the space `text` when it is not empty
-        Call,         ///< children are the arguments, in order, named optional ones included
-        Assignment,   ///< child 0 becomes child 1, or (`op`) child 0 op child 1
-        Member,       ///< child 0 -> `text`: of a struct, none are left for the analysis
+        Call,         ///< children are the arguments, in order, named optional ones included. Of a method
+               ///< "->name", behind the struct; "struct::name" in methods of those that have it as base
+        Assignment,  ///< child 0 becomes child 1, or (`op`) child 0 op child 1
+        Member,      ///< child 0 -> `text`: of a struct, none are left for the analysis
     };
     Kind kind = Kind::Number;
     Operator op = Operator::None;
@@ -160,7 +161,10 @@ inline bool is_gather_output(const Expression& name) {
 /// A struct of RSL 2. Values of its members are defaults; members that are structs have been defined before.
 struct Struct {
     std::string name;
+    const Struct* base = nullptr;  ///< its members are the first of this one's
     std::vector<std::unique_ptr<Variable>> members;
+    /// Names of its own; the functions are the file's, by the name "struct->method".
+    std::vector<std::string> methods;
     int pieces = 0;  ///< members with those of structs in it
     int depth = 1;   ///< of structs in structs
     SourceLocation at;
@@ -178,6 +182,7 @@ struct Function {
     std::string name;
     Type result;
     const Struct* result_structure = nullptr;  ///< it returns a struct: `result` says nothing
+    const Struct* method_of = nullptr;         ///< its members are known by their names alone
     std::vector<std::unique_ptr<Variable>> parameters;
     StatementPtr body;
     SourceLocation at;

@@ -20,13 +20,12 @@ ExpressionPtr clone(const ExpressionPtr& e) {
     return copy;
 }
 
-namespace {
-
 /// `outlives`, `growable` and `copied` are the analysis' to set, and start anew.
 std::unique_ptr<Variable> clone(const Variable& v) {
     auto copy = std::make_unique<Variable>();
     copy->name = v.name;
     copy->type = v.type;
+    copy->structure = v.structure;
     copy->storage = v.storage;
     copy->kind = v.kind;
     copy->output = v.output;
@@ -35,6 +34,8 @@ std::unique_ptr<Variable> clone(const Variable& v) {
     copy->at = v.at;
     return copy;
 }
+
+namespace {
 
 /// `defines` still names the nested function of the original, which is copied itself when its statement is
 /// analysed.

@@ -12,6 +12,7 @@ namespace trapeze::rsl {
 /// Why: each shader that calls a function gets its own copy, since what the function names as extern differs
 /// from shader to shader.
 ExpressionPtr clone(const ExpressionPtr& e);
+std::unique_ptr<Variable> clone(const Variable& variable);
 std::unique_ptr<Function> clone(const Function& function);
 
 }  // namespace trapeze::rsl

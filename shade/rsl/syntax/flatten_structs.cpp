@@ -84,13 +84,22 @@ class Flattener {
         return {};
     }
 
+    /// In a method what no variable hides means the struct's member of that name.
+    const Variable* member_of_this(const std::string& name) const {
+        if (!method_) return nullptr;
+        for (const auto& scope : scopes_)
+            if (scope.contains(name)) return nullptr;
+        return method_->find(name);
+    }
+
     /// The struct that an expression names; nothing for what is none. Members that there are not are
     /// reported.
     std::optional<Place> place(const Expression& e) {
         if (e.kind == Expression::Kind::Variable) {
-            const Known known = find(e.text);
+            const Variable* own = member_of_this(e.text);
+            const Known known = own ? Known{own->structure, Storage::Unspecified} : find(e.text);
             if (!known.structure) return {};
-            return Place{e.text, known.structure, known.storage};
+            return Place{own ? "this->" + e.text : e.text, known.structure, known.storage};
         }
         if (e.kind != Expression::Kind::Member) return {};
         const auto of = place(*e.children[0]);
@@ -114,17 +123,53 @@ class Flattener {
     // ---- Expressions
 
     void expression(ExpressionPtr& e) {
+        resolve_method(*e);
         if (e->kind == Expression::Kind::Member) return member(e);
-        if (e->kind == Expression::Kind::Variable && find(e->text).structure)
+        if (place(*e))
             return error(e->at, "\"" + e->text + "\" is a struct; one of its members is wanted here");
         if (constructed(*e) || returned(*e))
             return error(e->at, "a struct is made here, which goes to a variable or a function only");
+        if (e->kind == Expression::Kind::Variable && member_of_this(e->text)) e->text = "this->" + e->text;
         if (e->kind != Expression::Kind::Call) {
             for (ExpressionPtr& child : e->children) expression(child);
             return;
         }
         std::vector<ExpressionPtr> arguments = std::exchange(e->children, {});
         for (ExpressionPtr& argument : arguments) this->argument(std::move(argument), e->children);
+    }
+
+    /// A call of a method becomes one of its function, with the struct's members in front of the arguments.
+    void resolve_method(Expression& e) {
+        if (e.kind != Expression::Kind::Call) return;
+        const size_t colons = e.text.find("::");
+        const bool of_variable = e.text.starts_with("->");
+        std::string name = of_variable ? e.text.substr(2) : e.text, object = "this";
+        const Struct* structure = method_;
+        if (of_variable) {
+            const auto named = place(*e.children[0]);
+            e.children.erase(e.children.begin());
+            if (!named) {
+                e.text = name;
+                return error(e.at, "methods are called of structs; co-shaders of RSL 2 are not supported");
+            }
+            object = named->name, structure = named->structure;
+        } else if (colons != std::string::npos) {
+            const std::string base = name.substr(0, colons);
+            name = name.substr(colons + 2);
+            while (structure && structure->name != base) structure = structure->base;
+        }
+        const Struct* owner = method_owner(structure, name);
+        if (!owner) {
+            if (of_variable || colons != std::string::npos)
+                error(e.at, "there is no method \"" + name.substr(0, 80) + "\" of this struct");
+            return;
+        }
+        e.text = owner->name + "->" + name;
+        std::vector<ExpressionPtr> arguments = std::exchange(e.children, {});
+        for (const Leaf& leaf : leaves(*owner, e.at))
+            e.children.push_back(new_expression(Expression::Kind::Variable, object + leaf.name, e.at));
+        std::move(arguments.begin(), arguments.end(), std::back_inserter(e.children));
+        e.height = std::max<uint16_t>(e.height, 2);
     }
 
     void member(ExpressionPtr& e) {
@@ -148,6 +193,7 @@ class Flattener {
 
     /// Structs become as many arguments as they have members.
     void argument(ExpressionPtr e, std::vector<ExpressionPtr>& to) {
+        resolve_method(*e);
         const auto named = place(*e);
         const Struct* structure = named ? named->structure : constructed(*e);
         if (!structure) {
@@ -176,7 +222,7 @@ class Flattener {
             error(e->at, "a struct \"" + wanted.name + "\" is wanted here");
             return all;
         }
-        std::vector<ExpressionPtr> given = given_to(*e, wanted);
+        std::vector<ExpressionPtr> given = given_to(*e, wanted, reporter_);
         for (size_t i = 0; i < wanted.members.size(); ++i) {
             const Variable& member = *wanted.members[i];
             if (member.structure) {
@@ -202,27 +248,6 @@ class Flattener {
     std::vector<ExpressionPtr> mismatch(const Struct& wanted, const Struct& given, SourceLocation at) {
         error(at, "this is a struct \"" + given.name + "\", a \"" + wanted.name + "\" is wanted");
         return {};
-    }
-
-    /// A constructor's values, in the order of members, or as pairs of a member's name and its value.
-    std::vector<ExpressionPtr> given_to(Expression& call, const Struct& structure) {
-        std::vector<ExpressionPtr> given(structure.members.size());
-        std::vector<ExpressionPtr>& arguments = call.children;
-        bool by_name = !arguments.empty() && arguments.size() % 2 == 0;
-        for (size_t i = 0; i < arguments.size() && by_name; i += 2)
-            by_name = arguments[i]->kind == Expression::Kind::Text && structure.find(arguments[i]->text);
-        if (!by_name && arguments.size() > given.size()) {
-            error(call.at, "struct \"" + structure.name + "\" has " + std::to_string(given.size()) +
-                               " members, not " + std::to_string(arguments.size()));
-            return given;
-        }
-        for (size_t i = 0; i < arguments.size(); i += by_name ? 2 : 1) {
-            size_t number = i;
-            if (by_name)
-                for (number = 0; structure.members[number]->name != arguments[i]->text;) ++number;
-            given[number] = std::move(arguments[i + (by_name ? 1 : 0)]);
-        }
-        return given;
     }
 
     // ---- Statements
@@ -266,6 +291,7 @@ class Flattener {
             }
             ExpressionPtr initial = std::move(variable->initial);
             StatementPtr call;
+            if (initial) resolve_method(*initial);
             if (initial && returned(*initial))
                 call = call_into(variable->name, *variable->structure, *initial);
             if (call) initial.reset();
@@ -329,6 +355,7 @@ class Flattener {
     void assign(Statement& s, const Place& to, ExpressionPtr value) {
         const SourceLocation at = value->at;
         const Struct& structure = *to.structure;
+        resolve_method(*value);
         s.expressions.clear();
         s.kind = Statement::Kind::Block, s.open = false;
         Variable temporary;
@@ -364,6 +391,7 @@ class Flattener {
                 return assign(s, *to, std::move(e->children[1]));
             }
         }
+        resolve_method(*e);
         // What it returns is not wanted.
         if (const Struct* structure = returned(*e)) return assign_to_nothing(s, *structure);
         expression(e);
@@ -388,6 +416,7 @@ class Flattener {
         }
         ExpressionPtr value = std::move(s.expressions[0]);
         s.expressions.clear();
+        resolve_method(*value);
         StatementPtr inner = new_statement(Statement::Kind::Block, s.at);
         if (returned(*value))
             inner = call_into(kResult, *result_, *value);
@@ -398,9 +427,11 @@ class Flattener {
         s.children.push_back(new_statement(Statement::Kind::Return, s.at));
     }
 
-    /// A struct that is returned stands in front of the parameters, as output.
+    /// A struct that is returned, and that whose method it is, stand in front of the parameters, as output.
     void function(Function& f) {
         const Struct* const outer = std::exchange(result_, f.result_structure);
+        const Struct* const outer_method = method_;
+        if (f.inside.empty()) method_ = f.method_of;
         scopes_.emplace_back();
         std::vector<std::unique_ptr<Variable>> parameters;
         if (result_) {
@@ -408,6 +439,13 @@ class Flattener {
             result.name = kResult, result.structure = result_, result.at = f.at;
             result.kind = Variable::Kind::FunctionParameter, result.output = true;
             add_members(result, {}, parameters);
+        }
+        if (f.method_of) {
+            Variable self;
+            self.name = "this", self.structure = f.method_of, self.at = f.at;
+            self.kind = Variable::Kind::FunctionParameter, self.output = true;
+            add_members(self, {}, parameters);
+            declare(self);
         }
         for (auto& parameter : f.parameters) {
             declare(*parameter);
@@ -418,10 +456,10 @@ class Flattener {
         }
         // Names in scopes_ are copies, and need the variables no longer.
         f.parameters = std::move(parameters);
-        f.result_structure = nullptr;
+        f.result_structure = nullptr, f.method_of = nullptr;
         statement(*f.body);
         scopes_.pop_back();
-        result_ = outer;
+        result_ = outer, method_ = outer_method;
     }
 
     static constexpr const char* kResult = "(returned)";
@@ -432,6 +470,7 @@ class Flattener {
     std::unordered_map<const Function*, Function*> functions_;
     std::unordered_map<std::string, const Struct*> results_;  ///< of functions, by name
     std::vector<std::unordered_map<std::string, Known>> scopes_;
+    const Struct* method_ = nullptr;  ///< whose method is looked at
     const Struct* result_ = nullptr;  ///< of the function that is looked at
     size_t pieces_ = 0;
 };

@@ -150,7 +150,20 @@ ExpressionPtr Parser::cast() {
 /// index means depends on the type, which the parser does not know.
 ExpressionPtr Parser::postfix() {
     ExpressionPtr e = primary();
-    while (at("[") || (at("->") && ahead(1).kind == Token::Kind::Name && !ahead(2).is("("))) {
+    // Where there are no structs it is something of RSL 2 that there is not.
+    const auto at_member = [&] {
+        return at("->") && ahead(1).kind == Token::Kind::Name && !structs_.empty();
+    };
+    while (at("[") || at_member()) {
+        if (at("->") && ahead(2).is("(")) {
+            ExpressionPtr call = make(Expression::Kind::Call, take());
+            call->text = "->" + std::string(take().text);
+            call->children.push_back(std::move(e));
+            std::vector<ExpressionPtr> given = arguments();
+            for (ExpressionPtr& argument : given) call->children.push_back(std::move(argument));
+            e = finished(std::move(call));
+            continue;
+        }
         if (at("->")) {
             ExpressionPtr member = make(Expression::Kind::Member, take());
             member->text = take().text;
@@ -189,6 +202,15 @@ ExpressionPtr Parser::primary() {
         if (at_any({"illuminance", "illuminate", "solar", "gather"}))
             fail(token, "\"" + std::string(token.text) + "\" is a statement, and has no value");
         fail_expecting("an expression");
+    }
+    const bool of_base = ahead(1).is("::") && ahead(2).kind == Token::Kind::Name && ahead(3).is("(") &&
+                         structs_.contains(token.text);
+    if (of_base) {
+        ExpressionPtr e = make(Expression::Kind::Call, take());
+        take();
+        e->text = std::string(token.text) + "::" + std::string(take().text);
+        e->children = arguments();
+        return finished(std::move(e));
     }
     const bool call = ahead(1).is("(");
     ExpressionPtr e = make(call ? Expression::Kind::Call : Expression::Kind::Variable, take());

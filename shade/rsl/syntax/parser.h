@@ -86,6 +86,8 @@ class Parser {
     bool at_struct() const;
     void struct_definition();
     void struct_members(Struct& made);
+    void struct_method(Struct& made);
+    void struct_base(Struct& made);
     /// The struct that a token names as the type of what follows; null for others.
     const Struct* struct_named(size_t token) const;
 

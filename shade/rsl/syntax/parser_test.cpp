@@ -200,10 +200,11 @@ TEST(Parser, ErrorsSayWhereAndGoOn) {
 }
 
 TEST(Parser, Rsl2IsRefusedOnce) {
-    for (const char* text : {"surface t(shader s = null) {}",
-                             "class c() { shader s; public void surface(output color Ci, Oi) { Ci = 1; } }",
-                             "class c() { public float f() { return 1; } }",
-                             "surface t() { x = s->f(1); y = ; }", "surface t() { constant float x = 1; }"}) {
+    for (const char* text :
+         {"surface t(shader s = null) {}",
+          "class c() { shader s; public void surface(output color Ci, Oi) { Ci = 1; } }",
+          "class c() { public float f() { return 1; } }", "surface t() { x = s->f(1); y = ; }",
+          "surface t() { Ci = s->x * 2; }", "surface t() { constant float x = 1; }"}) {
         const std::string said = errors(text);
         EXPECT_NE(said.find("RSL 2"), std::string::npos) << said;
         EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;

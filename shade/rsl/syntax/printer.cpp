@@ -104,18 +104,24 @@ class Printer {
         text += f.result_structure            ? f.result_structure->name
                 : f.result.base == Base::Void ? "void"
                                               : std::string(name_of(f.result.base));
-        text += " " + f.name;
+        text += " " + f.name.substr(f.method_of ? f.name.find("->") + 2 : 0);
         head(f.parameters);
         block(*f.body);
         text += '\n';
     }
 
-    void structure(const Struct& s) {
-        text += "struct " + s.name + " {";
-        for (const auto& member : s.members) {
+    /// With the methods that are among these functions.
+    void structure(const Struct& s, const std::vector<std::unique_ptr<Function>>& functions) {
+        text += "struct " + s.name + (s.base ? " : " + s.base->name : "") + " {";
+        for (size_t i = s.base ? s.base->members.size() : 0; i < s.members.size(); ++i) {
             text += ' ';
-            variable(*member);
+            variable(*s.members[i]);
             text += ';';
+        }
+        for (const auto& f : functions) {
+            if (f->method_of != &s) continue;
+            text += ' ';
+            function(*f);
         }
         text += " }\n";
     }
@@ -255,6 +261,18 @@ class Printer {
         return ends_with_open_if(*s.children.back());
     }
 
+    /// "f(a, b)", or "a->f(b)" of a method.
+    void call(const Expression& e) {
+        const bool is_method = e.text.starts_with("->") && !e.children.empty();
+        if (is_method) expression(*e.children[0], kPrimary);
+        text += e.text + "(";
+        for (size_t i = is_method ? 1 : 0; i < e.children.size(); ++i) {
+            if (i > (is_method ? 1u : 0u)) text += ", ";
+            expression(*e.children[i]);
+        }
+        text += ')';
+    }
+
     void statement(const Statement& s);
     void bare(const Expression& e);
     static int precedence(const Expression& e);
@@ -345,9 +363,7 @@ void Printer::bare(const Expression& e) {
             expression(*e.children[0], names_a_variable(*e.children[0]) ? kPrimary + 1 : kUnary);
             break;
         case Expression::Kind::Call:
-            text += e.text + "(";
-            list(e.children);
-            text += ')';
+            call(e);
             break;
         case Expression::Kind::Assignment:
             expression(*e.children[0], kPrimary);
@@ -423,7 +439,7 @@ std::string print(const Type& type, Storage storage) {
 
 std::string print(const Struct& structure) {
     Printer printer;
-    printer.structure(structure);
+    printer.structure(structure, {});
     return printer.text;
 }
 
@@ -437,9 +453,9 @@ std::string print(const Expression& expression) {
 /// shader.
 std::string print(const TranslationUnit& unit) {
     Printer printer;
-    for (const auto& structure : unit.structs) printer.structure(*structure);
+    for (const auto& structure : unit.structs) printer.structure(*structure, unit.functions);
     for (const auto& function : unit.functions)
-        if (function->inside.empty()) printer.function(*function);
+        if (function->inside.empty() && !function->method_of) printer.function(*function);
     for (const auto& shader : unit.shaders) printer.shader(*shader);
     return printer.text;
 }

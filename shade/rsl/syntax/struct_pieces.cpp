@@ -50,6 +50,32 @@ StatementPtr assignment_of(const std::string& variable, ExpressionPtr value, Sou
     return s;
 }
 
+std::vector<ExpressionPtr> given_to(Expression& call, const Struct& structure, Reporter& reporter) {
+    std::vector<ExpressionPtr> given(structure.members.size());
+    std::vector<ExpressionPtr>& arguments = call.children;
+    bool by_name = !arguments.empty() && arguments.size() % 2 == 0;
+    for (size_t i = 0; i < arguments.size() && by_name; i += 2)
+        by_name = arguments[i]->kind == Expression::Kind::Text && structure.find(arguments[i]->text);
+    if (!by_name && arguments.size() > given.size()) {
+        reporter.error(call.at, "struct \"" + structure.name + "\" has " + std::to_string(given.size()) +
+                                    " members, not " + std::to_string(arguments.size()));
+        return given;
+    }
+    for (size_t i = 0; i < arguments.size(); i += by_name ? 2 : 1) {
+        size_t number = i;
+        if (by_name)
+            for (number = 0; structure.members[number]->name != arguments[i]->text;) ++number;
+        given[number] = std::move(arguments[i + (by_name ? 1 : 0)]);
+    }
+    return given;
+}
+
+const Struct* method_owner(const Struct* structure, const std::string& method) {
+    while (structure && std::ranges::find(structure->methods, method) == structure->methods.end())
+        structure = structure->base;
+    return structure;
+}
+
 ExpressionPtr nothing_in(const Variable& member, SourceLocation at) {
     const bool is_text = member.type.base == Base::String;
     const auto one = [&] {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "shade/rsl/syntax/ast.h"
+#include "shade/rsl/syntax/reporter.h"
 
 namespace trapeze::rsl {
 
@@ -21,6 +22,13 @@ ExpressionPtr new_expression(Expression::Kind kind, std::string text, SourceLoca
 StatementPtr new_statement(Statement::Kind kind, SourceLocation at);
 /// variable = value;
 StatementPtr assignment_of(const std::string& variable, ExpressionPtr value, SourceLocation at);
+
+/// A constructor's values, in the order of members, or as pairs of a member's name and its value; null where
+/// it is given none.
+std::vector<ExpressionPtr> given_to(Expression& call, const Struct& structure, Reporter& reporter);
+
+/// The struct that has a method, this one or one that it has as base; null for none.
+const Struct* method_owner(const Struct* structure, const std::string& method);
 
 /// The value that a variable without one has.
 ExpressionPtr nothing_in(const Variable& member, SourceLocation at);

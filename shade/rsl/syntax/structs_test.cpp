@@ -35,8 +35,6 @@ TEST(Structs, TellWhatIsWrongWithThem) {
               "error 2:8: struct \"Float2\" has been defined otherwise\n");
     EXPECT_EQ(said("struct A { float x = 1; color x = 2; } surface t() {}"),
               "error 1:31: member \"x\" is there twice\n");
-    EXPECT_EQ(said("struct A { float f(float x) { return x; } } surface t() {}"),
-              "error 1:12: structs have members only, and no methods\n");
     EXPECT_EQ(said("struct A { A a; } surface t() {}"),
               "error 1:12: expected a member of the struct, not \"A\"\n");
     EXPECT_EQ(said(kFloat2 + "surface t(Float2 a;) {}"),
@@ -68,8 +66,28 @@ TEST(Structs, MembersAreNamedBehindVariables) {
         said(kFloat2 + "struct B { Float2 in; } surface t() { B b; Ci = b->in + b->in->x + b->in->x->y; }"),
         "error 2:50: \"b->in\" is a struct; one of its members is wanted here\n"
         "error 2:76: \"->\" stands behind variables that are structs\n");
-    // Methods are those of co-shaders.
-    EXPECT_NE(in_surface_with_struct("Float2 a; Ci = a->f(2);").find("co-shaders"), std::string::npos);
+}
+
+TEST(Structs, MethodsSeeMembersAndOneAnother) {
+    const std::string structs =
+        "struct A { varying float x = 1; float once() { return x; } float twice() { return 2 * once(); } }\n"
+        "struct B : A { float y = 2; float once() { return A::once() + twice() + y; }\n"
+        "    void set(float x) { y = x; } }\n";
+    // The header of a header is included twice.
+    EXPECT_EQ(
+        said(structs + structs + "surface t() { B b; b->x = 3; b->set(4); Ci = b->once() + b->twice(); }"),
+        "");
+    EXPECT_EQ(said(structs + "surface t() { A a;\nCi = a->thrice(); }"),
+              "error 5:7: there is no method \"thrice\" of this struct\n");
+    EXPECT_EQ(said(structs + "surface t() { float a;\nCi = a->once(); }"),
+              "error 5:7: methods are called of structs; co-shaders of RSL 2 are not supported\n");
+    EXPECT_EQ(said("struct A : B { float x = 1; } surface t() {}"), "error 1:12: there is no struct \"B\"\n");
+    EXPECT_EQ(
+        said(
+            "struct A { float f() { return g(); } float g() { return f(); } } surface t() { A a; Ci = a->f(); }"),
+        "error 1:57: function \"A->f\" calls itself, directly or through others\n");
+    EXPECT_EQ(said("struct A { float f() { return z; } } surface t() { A a; Ci = a->f(); }"),
+              "error 1:31: there is no variable \"z\"\n");
 }
 
 TEST(Structs, ValuesFit) {

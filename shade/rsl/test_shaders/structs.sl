@@ -12,6 +12,23 @@ struct Coat {
     varying point places[];
 };
 
+struct Lacquer : Coat {
+    uniform float gloss = .1;
+
+    public void dim(float by)
+    {
+        weight *= by;
+        range->high -= by;
+    }
+
+    public color highlight(vector V; float size)
+    {
+        extern normal N;
+        dim(.9);
+        return tint * weight * specular(normalize(N), V, gloss * size);
+    }
+}
+
 Range around(float middle)
 {
     if (middle < 0)
@@ -30,6 +47,7 @@ class structs(float middle = .5; output varying color worn = 0;)
 {
     Coat base = Coat("weight", .5, "range", Range(.1));
     Range window;
+    Lacquer lacquer;
 
     public void begin()
     {
@@ -51,6 +69,8 @@ class structs(float middle = .5; output varying color worn = 0;)
         if (second->label == base->label && arraylength(second->places) > 1)
             worn = shade(second, 1);
         Ci = Os * (shade(base, 0) + worn * second->range->low);
+        lacquer->dim(.5);
+        Ci += lacquer->highlight(-normalize(I), 2);
         Oi = Os;
     }
 }
