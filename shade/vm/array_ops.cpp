@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "shade/rsl/syntax/ast.h"
 #include "shade/vm/context_ops.h"
 #include "shade/vm/kernels/spline.h"
 

@@ -9,6 +9,23 @@ namespace trapeze::testing {
 
 #define TRAPEZE_GIVES(...) [](double x, double y) -> double { return (void)x, (void)y, __VA_ARGS__; }
 
+/// Arrays that are resized, of each type.
+void add_array_cases(std::vector<BuiltinCase>& cases) {
+    // Of two elements, three and one; the third is 0.
+    const std::pair<std::string, std::string> arrays[] = {
+        {"float", "a"},         {"color", "comp(a, 0)"},     {"point", "xcomp(a)"},   {"vector", "xcomp(a)"},
+        {"normal", "xcomp(a)"}, {"matrix", "comp(a, 0, 0)"}, {"string", "a == \"y\""}};
+    for (const auto& [type, number] : arrays) {
+        const bool is_text = type == "string";
+        const std::string first = is_text ? "\"x\"" : type + " Y", second = is_text ? "\"y\"" : type + " X";
+        cases.push_back({type + " many[]; push(many, " + first + "); push(many, " + second +
+                             "); reserve(many, 5); resize(many, 3); " + type +
+                             " a = pop(many); r = 1000 * (" + number + "); a = pop(many); r += 100 * (" +
+                             number + ") + 10 * capacity(many) + arraylength(many);",
+                         [is_text](double x, double) { return (is_text ? 1 : x) * 100 + 51; }, 1e-5});
+    }
+}
+
 std::vector<BuiltinCase> number_cases() {
     std::vector<BuiltinCase> cases{
         {"r = radians(X * 90);", TRAPEZE_GIVES(x * std::numbers::pi / 2)},
@@ -54,19 +71,7 @@ std::vector<BuiltinCase> number_cases() {
         {"printf(\"%g\", X); r = X;", TRAPEZE_GIVES(x)},
         {"r = match(\"b.d\", \"abcde\") + 10 * match(\"^b\", \"abc\") + X;", TRAPEZE_GIVES(1 + x)},
     };
-    // Of two elements, three and one; the third is 0.
-    const std::pair<std::string, std::string> arrays[] = {
-        {"float", "a"},         {"color", "comp(a, 0)"},     {"point", "xcomp(a)"},   {"vector", "xcomp(a)"},
-        {"normal", "xcomp(a)"}, {"matrix", "comp(a, 0, 0)"}, {"string", "a == \"y\""}};
-    for (const auto& [type, number] : arrays) {
-        const bool is_text = type == "string";
-        const std::string first = is_text ? "\"x\"" : type + " Y", second = is_text ? "\"y\"" : type + " X";
-        cases.push_back({type + " many[]; push(many, " + first + "); push(many, " + second +
-                             "); reserve(many, 5); resize(many, 3); " + type +
-                             " a = pop(many); r = 1000 * (" + number + "); a = pop(many); r += 100 * (" +
-                             number + ") + 10 * capacity(many) + arraylength(many);",
-                         [is_text](double x, double) { return (is_text ? 1 : x) * 100 + 51; }, 1e-5});
-    }
+    add_array_cases(cases);
     // Those of triples are those of their components.
     for (const std::string type : {"color", "point", "vector", "normal"}) {
         const std::string a = type + " (X, Y, 0.5)", b = type + " (Y, 0.4, X)";

@@ -38,7 +38,7 @@ class GroupTrace {
     GroupTrace(const WideTree& tree, std::span<TraceRay> rays, FirstOpaque* met)
         : tree_(tree), count_(rays.size()) {
         RayBeam<kMotion>(tree, rays).list(list_);
-        for (size_t i = 0; i < count_; ++i) going_[i].ray.emplace(tree, rays[i], met[i], Nothing());
+        for (size_t i = 0; i < count_; ++i) going_[i].ray.emplace(tree, rays[i], met[i], CountNothing());
     }
 
     /// In rounds: each ray tests the micropolygons that were fetched for it in the last round, and looks for
@@ -58,12 +58,7 @@ class GroupTrace {
     }
 
   private:
-    struct Nothing {
-        void node() {}
-        void grid() {}
-        void block(int) {}
-    };
-    using Ray = SingleRay<kMotion, FirstOpaque, Nothing>;
+    using Ray = SingleRay<kMotion, FirstOpaque, CountNothing>;
     static constexpr size_t kBelow = 64;  ///< links that may wait
 
     /// What has been fetched for a ray, and is done when it is its turn.

@@ -67,6 +67,13 @@ class AheadStack {
     alignas(64) uint32_t links_[kRoom + kLanes];
 };
 
+/// For rays that nobody counts.
+struct CountNothing {
+    void node() {}
+    void grid() {}
+    void block(int) {}
+};
+
 /// A ray on its way. kMotion: something in the tree moves.
 template <bool kMotion, class Policy, class Counts>
 class SingleRay {
@@ -85,7 +92,6 @@ class SingleRay {
 
     /// The policy wants no more.
     bool ended() const { return ray_.t_max == -HUGE_VALF; }
-    float t_max() const { return ray_.t_max; }
 
     void visit_unbounded() {
         for (const uint32_t index : tree_.unbounded_grids()) {

@@ -1,6 +1,5 @@
-/// The way of a single ray through a tree, with a stack of what it may meet. Its origin and slopes may be
-/// any: boxes grow by the ray's own rounding when they are tested. Compiled once a target; the best one that
-/// the machine has is chosen at each call.
+/// What dispatch calls for single rays and for groups of them. Compiled once a target; the best one that the
+/// machine has is chosen at each call.
 #include "accel/wide/rays/single_ray.h"
 
 #include <algorithm>
@@ -20,7 +19,7 @@
 #define TRAPEZE_ACCEL_SINGLE_RAY_ONCE
 namespace trapeze::single_ray_detail {
 
-/// A ray that asks, and counting policies: nothing, or into SingleRayCounts.
+/// A ray that asks.
 struct Query {
     const WideTree& tree;
     TraceRay& ray;
@@ -32,11 +31,7 @@ struct GroupQuery {
     std::span<const uint32_t> group;
     InTheWay* met;
 };
-struct CountNothing {
-    void node() {}
-    void grid() {}
-    void block(int) {}
-};
+/// Counting policies: into SingleRayCounts, or nothing (accel/wide/rays/single_ray-inl.h).
 struct CountAll {
     SingleRayCounts& counts;
     void node() { ++counts.nodes; }
