@@ -66,8 +66,7 @@ inline SegmentBlock block_of(const WideGrid& grid, int segment, int u, int v, ui
     return block;
 }
 
-/// Fetches a block's vertices: up to four tiles of each plane, a cache line each. What does nothing but fetch
-/// is inlined: GCC takes calls of it for calls without effect, and leaves them out.
+/// Fetches a block's vertices: up to four tiles of each plane, a cache line each. Inlined, as fetch() is.
 HWY_INLINE void fetch_block(const SegmentBlock& block, size_t planes) {
     for (size_t k = 0; k < planes; ++k) {
         const float* tile = block.view.tile + k * block.view.plane;

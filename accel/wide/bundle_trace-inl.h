@@ -15,6 +15,7 @@
 #include "accel/grid_block.h"
 #include "accel/wide/bundle_scratch.h"
 #include "accel/wide/candidates-inl.h"
+#include "accel/wide/fetch.h"
 #include "accel/wide/grid_boxes-inl.h"
 #include "accel/wide/grid_rays-inl.h"
 #include "accel/wide/sharp_packets-inl.h"
@@ -71,21 +72,14 @@ class BundleTrace {
     }
 
   private:
-    /// Fetches the lines of the first and the last byte: enough for what lies within two lines. What does
-    /// nothing but fetch is inlined: GCC takes calls of it for calls without effect, and leaves them out.
-    HWY_INLINE static void prefetch(const void* at, size_t bytes) {
-        __builtin_prefetch(at);
-        __builtin_prefetch(static_cast<const char*>(at) + bytes - 1);
-    }
-
     /// Fetches records and bounds of candidates that come some places after this one.
     HWY_INLINE void prefetch_grids(size_t candidate) const {
         const auto& all = t_.scratch.candidates;
         if (candidate + kPrefetchAhead < all.size())
-            prefetch(&t_.tree.grid(candidate_of(all[candidate + kPrefetchAhead]).grid), sizeof(WideGrid));
+            fetch(&t_.tree.grid(candidate_of(all[candidate + kPrefetchAhead]).grid), sizeof(WideGrid));
         if (candidate + kPrefetchBoundsAhead < all.size()) {
             const WideGrid& grid = t_.tree.grid(candidate_of(all[candidate + kPrefetchBoundsAhead]).grid);
-            prefetch(t_.tree.keys_of(grid), grid.header_bytes());
+            fetch(t_.tree.keys_of(grid), grid.header_bytes());
         }
     }
 

@@ -124,15 +124,6 @@ void GroupedRayGrids::closest(const RayHits& hits, std::span<const RaySegment> r
     }
 }
 
-InTheWay GroupedRayGrids::in_the_way(const RaySegment& ray, const PlacedRay& placed, RayKind kind) const {
-    const RangedRay asked = placed.ranged(ray);
-    InTheWay most = InTheWay::Nothing;
-    for (unsigned mask = 0; mask < kMasks && most != InTheWay::Opaque; ++mask)
-        if (sees(kind, mask) && groups_[mask].grids)
-            most = std::max(most, for_ray(ray, groups_[mask].grids->in_the_way(asked)));
-    return most;
-}
-
 void GroupedRayGrids::in_the_way(std::span<const RaySegment> rays, std::span<const PlacedRay> placed,
                                  RayKind kind, std::span<InTheWay> met) const {
     std::vector<RangedRay> asked;

@@ -34,12 +34,11 @@ class GroupedRayGrids {
     /// The nearest hit that counts.
     std::optional<RaySurfaceHit> closest(const RayHits& hits, const RaySegment& ray, const PlacedRay& placed,
                                          RayKind kind) const;
-    /// What is in the way: Opaque only where it counts for the ray, whatever it is.
-    InTheWay in_the_way(const RaySegment& ray, const PlacedRay& placed, RayKind kind) const;
     /// Of many rays, and the same one in several places: bricks are made once for all. placed[i] and found[i]
     /// are those of rays[i].
     void closest(const RayHits& hits, std::span<const RaySegment> rays, std::span<const PlacedRay> placed,
                  RayKind kind, std::span<std::optional<RaySurfaceHit>> found) const;
+    /// What is in the way: Opaque only where it counts for the ray, whatever it is.
     void in_the_way(std::span<const RaySegment> rays, std::span<const PlacedRay> placed, RayKind kind,
                     std::span<InTheWay> met) const;
 

@@ -109,17 +109,6 @@ std::optional<RayGridHit> RayBricks::closest(const RangedRay& ray) const {
     return nearest;
 }
 
-InTheWay RayBricks::in_the_way(const RangedRay& ray) const {
-    TraceRay trace_ray = TraceRay::turned(axis_ray(ray.ray), ray.range);
-    InTheWay most = InTheWay::Nothing;
-    tree_->visit(trace_ray, [&](uint32_t number, float) {
-        if (most == InTheWay::Opaque) return;
-        most = std::max(most, brick(number)->tree->in_the_way(ray.ray, ray.range, ray.near));
-        if (most == InTheWay::Opaque) trace_ray.t_max = -std::numeric_limits<float>::infinity();
-    });
-    return most;
-}
-
 /// All meetings of rays and bricks' bounds, brick by brick; bricks that are there come first, which may spare
 /// others.
 std::vector<RayBricks::Meeting> RayBricks::meetings(std::span<const RangedRay> rays) const {

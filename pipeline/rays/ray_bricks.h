@@ -29,7 +29,6 @@ class RayBricks final : public RayGrids {
     ~RayBricks() override;
 
     std::optional<RayGridHit> closest(const RangedRay& ray) const override;
-    InTheWay in_the_way(const RangedRay& ray) const override;
     /// As those of one ray, for many: each brick is made once for all that want it.
     void closest(std::span<const RangedRay> rays, const TakeHit& take) const;
     void in_the_way(std::span<const RangedRay> rays, std::span<InTheWay> met) const override;

@@ -27,9 +27,7 @@ class RayGrids {
     virtual ~RayGrids() = default;
     /// As WideTree::closest_from(); the grid of RangedRay::from is a subpatch.
     virtual std::optional<RayGridHit> closest(const RangedRay& ray) const = 0;
-    /// As WideTree's.
-    virtual InTheWay in_the_way(const RangedRay& ray) const = 0;
-    /// As those of one ray, for many.
+    /// As WideTree's, of many rays.
     virtual void in_the_way(std::span<const RangedRay> rays, std::span<InTheWay> met) const = 0;
     /// Memory that is held now.
     virtual size_t bytes() const = 0;

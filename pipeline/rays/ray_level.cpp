@@ -205,17 +205,6 @@ void RayLevel::closest(std::span<const RaySegment> rays, RayKind kind,
         });
 }
 
-std::optional<bool> RayLevel::blocked(const RaySegment& ray, RayKind kind) const {
-    InTheWay most = own_.in_the_way(ray, PlacedRay(ray), kind);
-    if (places_ && most != InTheWay::Opaque)
-        places_->visit(ray, [&](uint32_t, float, const PlacedRay& placed) {
-            if (most == InTheWay::Opaque) return -kInfinity;
-            most = std::max(most, objects_[placed.place->object].in_the_way(ray, placed, kind));
-            return most == InTheWay::Opaque ? -kInfinity : ray.max;
-        });
-    return is_blocked(most);
-}
-
 void RayLevel::blocked(std::span<const RaySegment> rays, RayKind kind,
                        std::span<std::optional<bool>> blocked) const {
     std::vector<InTheWay> most(rays.size());

@@ -36,7 +36,6 @@ class RayLevel {
     bool is_seen(uint32_t primitive, RayKind kind) const;
     /// RayScene's, of this level, without regard to solids.
     std::optional<RaySurfaceHit> closest(const RaySegment& ray, RayKind kind) const;
-    std::optional<bool> blocked(const RaySegment& ray, RayKind kind) const;
     /// Of many rays, as RayScene's.
     void closest(std::span<const RaySegment> rays, RayKind kind,
                  std::span<std::optional<RaySurfaceHit>> hits) const;

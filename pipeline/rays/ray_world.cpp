@@ -112,16 +112,9 @@ std::optional<RaySurfaceHit> RayWorld::closest_of_all(const RaySegment& ray, Ray
 }
 
 std::optional<bool> RayWorld::blocked(const RaySegment& ray, RayKind kind) const {
-    if (rule_.is_simple()) return levels_[0]->blocked(ray, kind);
-    bool sure = true;
-    RaySegment part = ray;
-    for (const LevelSpan& span : rule_.of(ray)) {
-        part.min = span.min, part.max = span.max;
-        const std::optional<bool> is_blocked = levels_[static_cast<size_t>(span.level)]->blocked(part, kind);
-        if (is_blocked == true) return true;
-        sure &= is_blocked.has_value();
-    }
-    return sure ? std::optional(false) : std::nullopt;
+    std::optional<bool> is_blocked;
+    blocked(std::array{&ray}, kind, std::span(&is_blocked, 1));
+    return is_blocked;
 }
 
 /// Calls ask(level, numbers, parts) for the rays that want a level, level by level; ends(number) is where a

@@ -38,9 +38,6 @@ class WholeRayGrids final : public RayGrids {
         return RayGridHit{with_ordinal(*hit, grids_), &grids_.grids[MicropolygonId::unpack(hit->id).grid],
                           nullptr};
     }
-    InTheWay in_the_way(const RangedRay& ray) const override {
-        return tree_.in_the_way(ray.ray, ray.range, ray.near);
-    }
     void in_the_way(std::span<const RangedRay> rays, std::span<InTheWay> met) const override {
         tree_.in_the_way(rays, met);
     }

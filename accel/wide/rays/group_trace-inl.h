@@ -15,6 +15,7 @@
 #include <span>
 #include <utility>
 
+#include "accel/wide/fetch.h"
 #include "accel/wide/rays/grid_list.h"
 #include "accel/wide/rays/ray_beam-inl.h"
 #include "accel/wide/rays/ray_groups.h"
@@ -98,13 +99,6 @@ class GroupTrace {
         return list_.links[part * GridList::kPart + static_cast<size_t>(std::countr_zero(met))];
     }
 
-    // What does nothing but fetch is inlined: GCC takes calls of it for calls without effect, and leaves them
-    // out.
-    HWY_INLINE static void fetch(const void* from, size_t bytes) {
-        const char* const first = static_cast<const char*>(from);
-        for (size_t at = 0; at < bytes; at += 64) __builtin_prefetch(first + at);
-        __builtin_prefetch(first + bytes - 1);
-    }
     HWY_INLINE void fetch_record(uint32_t link) const {
         fetch(&tree_.grid(link & ~kGridLink), sizeof(WideGrid));
     }
@@ -115,7 +109,7 @@ class GroupTrace {
     HWY_INLINE void fetch_node(uint32_t link) const {
         fetch(&tree_.nodes()[link], sizeof(WideNode));
         if constexpr (kMotion) fetch(&tree_.node_motions()[link], sizeof(WideNodeMotion));
-        __builtin_prefetch(&tree_.node_largest(link));
+        fetch(&tree_.node_largest(link), sizeof(WideNodeLargest));
     }
 
     /// What comes next of the list; kNoLink where nothing is left.

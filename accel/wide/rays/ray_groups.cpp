@@ -1,6 +1,5 @@
 #include "accel/wide/rays/ray_groups.h"
 
-#include <cmath>
 #include <utility>
 
 namespace trapeze {
@@ -56,13 +55,11 @@ void RayGroups::group_run(std::span<const RangedRay> rays, uint32_t first) {
     cells_.resize(rays.size());
     starts_.assign(none + 1, 0);
     for (size_t i = 0; i < rays.size(); ++i) {
-        const V3f& d = rays[i].ray.direction;
-        const float ax = std::abs(d.x), ay = std::abs(d.y), az = std::abs(d.z);
-        const int z = az >= ax && az >= ay ? 2 : (ay >= ax ? 1 : 0);
-        const float scale = half / d[z], u = half + d[(z + 1) % 3] * scale, v = half + d[(z + 2) % 3] * scale;
+        const TurnedRay ray = axis_ray(rays[i].ray);
+        const float u = half + half * ray.ray.ux, v = half + half * ray.ray.uy;
         uint32_t cell = none;
         if (u >= 0 && v >= 0) {  // not what is no number
-            const uint32_t face = 2 * static_cast<uint32_t>(z) + (d[z] < 0);
+            const uint32_t face = 2 * static_cast<uint32_t>(ray.z_plane) + (ray.depth_sign < 0);
             cell = (face * side + std::min(side - 1, static_cast<uint32_t>(v))) * side +
                    std::min(side - 1, static_cast<uint32_t>(u));
         }
