@@ -231,7 +231,7 @@ Task<vm::Registers*> GridRun::run_layer(const LayeredShader& shader, size_t laye
                          : grids.front()->for_opacity ? material_.other_lights
                                                       : material_.lights;
     scratch_.lights.start(scratch_.machine, lights, surroundings, batch.lanes,
-                          variable_planes(registers, "N"), context_.seed);
+                          variable_planes(registers, "N"), context_.seed, context_.scene->held_from_camera);
     co_await bound.set_run_defaults(scratch_.machine, registers, surroundings, grids);
     shader.connect(layer, layers);
     co_await scratch_.machine.run(registers, surroundings);

@@ -9,6 +9,7 @@
 #include "core/scene/depth_filter.h"
 #include "core/scene/level_of_detail.h"
 #include "core/scene/motion_turn.h"
+#include "core/scene/poses.h"
 #include "core/scene/scene.h"
 
 namespace trapeze {
@@ -124,8 +125,7 @@ void move_hit_to(const V3f& place, ShadingGrid& grid) {
 
 void see_hit(ShadingGrid& grid) {
     const float time = grid.hit_time;
-    const MotionTurn turn =
-        time > 0 ? MotionTurn(*grid.primitive, static_cast<int>(grid.P.size()), {}) : MotionTurn();
+    const MotionTurn turn = time > 0 ? turn_of(grid, {}) : MotionTurn();
     const auto hit = static_cast<size_t>(grid.hit_vertex);
     const V3f place = place_at(grid, hit, time);
     const RaysBeside beside(grid.hit_ray, place - grid.hit_from);
@@ -136,6 +136,16 @@ void see_hit(ShadingGrid& grid) {
         grid.I.set(i, turn.back(way, time));
     }
     for (size_t k = 0; k < 2; ++k) grid.hit_across[k] = turn.back(grid.hit_ray.origin[k], time);
+}
+
+int motion_keys_of(const ShadingGrid& grid, std::span<const M44f> held) {
+    const auto keys = static_cast<int>(grid.P.size());
+    return keys == 1 && !held.empty() && grid.hit_vertex < 0 ? kHeldKeys : keys;
+}
+
+MotionTurn turn_of(const ShadingGrid& grid, std::span<const M44f> held) {
+    return MotionTurn(*grid.primitive, motion_keys_of(grid, held),
+                      grid.hit_vertex < 0 ? held : std::span<const M44f>());
 }
 
 Facing facing_for_sides(int sides, bool reverse_orientation) {

@@ -17,6 +17,7 @@
 
 namespace trapeze {
 
+class MotionTurn;
 struct Primitive;
 struct Scene;
 
@@ -139,6 +140,12 @@ void move_hit_to(const V3f& place, ShadingGrid& grid);
 /// lies at shutter open: from hit_from, and of other vertices from where the ray that would meet them comes
 /// by there, as far as the rays beside the hit's tell.
 void see_hit(ShadingGrid& grid);
+
+/// How a grid's surface turns as its own rays have it. `held`: Scene::held_from_camera; a hit needs none, for
+/// what rays meet has no motion of the camera in it.
+MotionTurn turn_of(const ShadingGrid& grid, std::span<const M44f> held);
+/// The keys of that motion; of 1 key nothing moves.
+int motion_keys_of(const ShadingGrid& grid, std::span<const M44f> held);
 
 /// Which side of the grid's micropolygons can be hit, for Sides: which sign of projected area shows the
 /// outside. See grid winding in hit_micropolygon.h: with rays along +z, dPdu x dPdv points to the viewer

@@ -24,9 +24,9 @@ class LightSampler {
   public:
     virtual ~LightSampler() = default;
 
-    /// A point for one of the unit square, at P, whose normal is N (of unit length, or zero: not known). For
-    /// even points of the square the mean of solid_angle times a function of where light comes from is the
-    /// function's integral over the light as it is seen from P.
+    /// A point for one of the unit square, at P, whose normal on the side that is looked at is N (zero: not
+    /// known). For even points of the square the mean of solid_angle times a function of where light comes
+    /// from is the function's integral over the light as it is seen from P.
     virtual LightSample sample(const V3f& P, const V3f& N, const V2f& square) const = 0;
 
     /// Of one side; 1 where the light is nowhere.

@@ -40,13 +40,12 @@ constexpr double kByCosine = 0.75;
 
 class WhiteDome final : public LightSampler {
   public:
-    LightSample sample(const V3f& P, const V3f& N, const V2f& square) const override {
+    LightSample sample(const V3f&, const V3f& N, const V2f& square) const override {
         V3d way;
         V2f rest = square;
         const double length = wide(N).length();
         const bool knows_normal = length > 0 && std::isfinite(length);
-        // The side that is seen from the eye.
-        const V3d normal = knows_normal ? wide(N) / (wide(N).dot(wide(P)) > 0 ? -length : length) : V3d(0);
+        const V3d normal = knows_normal ? wide(N) / length : V3d(0);
         const double share = knows_normal ? kByCosine : 0;
         if (static_cast<double>(square.x) < share) {
             const double sine2 = static_cast<double>(square.x) / share;

@@ -56,7 +56,12 @@ void copy_operand(const vm::Operand& from, int width, size_t lanes, const vm::Op
     }
 }
 
-/// When a place on a moving light is taken for a vertex: where rays of its surface have times of their own,
+/// Rays of a grid's surface have times of their own: it asks for that, or has been hit at one.
+bool has_times(const ShadingGrid& grid) {
+    return grid.hit_vertex >= 0 ? grid.hit_time > 0 : grid.primitive->attributes->rays.sample_motion;
+}
+
+/// When a sample of an area light is taken for a vertex: where rays of its surface have times of their own,
 /// at one of these; for what a ray has hit when that was; else at shutter open.
 float time_of_sample(int sample, uint32_t seed, const ShadingGrid* grid) {
     if (!grid) return 0;
@@ -83,7 +88,8 @@ const LightSampler* Lamp::sampler_at(float time) const {
 }
 
 void LightRig::start(vm::Machine& machine, const std::vector<const Lamp*>& lamps,
-                     const vm::Context& surroundings, size_t lanes, const Plane3& N, uint32_t seed) {
+                     const vm::Context& surroundings, size_t lanes, const Plane3& N, uint32_t seed,
+                     std::span<const M44f> held) {
     machine_ = &machine;
     lamps_ = &lamps;
     surroundings_ = &surroundings;
@@ -99,10 +105,24 @@ void LightRig::start(vm::Machine& machine, const std::vector<const Lamp*>& lamps
             wanted > kMostTurns && asked > 1 ? std::max(1, asked * kMostTurns / wanted) : asked;
         for (int s = 0; s < samples; ++s) turns_.push_back({i, s, samples});
     }
+    if (std::ranges::any_of(lamps, [](const Lamp* lamp) { return lamp->area != nullptr; }))
+        find_surface_motion(held);
     while (slots_.size() < turns_.size()) slots_.emplace_back();
     for (Slot& slot : slots_) {
         slot.lasts = false;
         slot.arriving.registers = nullptr;
+    }
+}
+
+/// Whether and how surfaces move while light is sampled.
+void LightRig::find_surface_motion(std::span<const M44f> held) {
+    has_times_ = false;
+    surface_turns_.clear();
+    if (!surroundings_->batch) return;
+    for (const vm::GridSpan& span : surroundings_->batch->spans) {
+        const bool has = span.grid && has_times(*span.grid);
+        surface_turns_.push_back(has ? turn_of(*span.grid, held) : MotionTurn());
+        has_times_ |= has;
     }
 }
 
@@ -143,12 +163,17 @@ void LightRig::set_variables(vm::Registers& registers, const Lamp& lamp, const v
     }
 }
 
+/// From the eye to a point that the camera sees.
+V3f LightRig::eye_way(const V3f& point) const {
+    return surroundings_->perspective ? point : V3f(0, 0, point.z);
+}
+
 /// Of the rays that have hit the points which are lit: where they began, or the `way` from there to P. The
 /// camera's begin in the eye, or on the eye's plane.
 void LightRig::set_ray(const vm::Operand& out, bool way, const vm::Operand& P) const {
     const auto put = [&](size_t lane, const ShadingGrid* grid, size_t vertex) {
         const V3f here = vm::Run::triple_at(P, lane);
-        V3f origin = surroundings_->perspective ? V3f(0, 0, 0) : V3f(here.x, here.y, 0);
+        V3f origin = here - eye_way(here);
         if (grid && vertex < grid->I.size()) origin = grid->P.front().at(vertex) - grid->I.at(vertex);
         for (int k = 0; k < 3; ++k)
             out.data[static_cast<size_t>(k) * out.stride + lane] = way ? here[k] - origin[k] : origin[k];
@@ -161,40 +186,75 @@ void LightRig::set_ray(const vm::Operand& out, bool way, const vm::Operand& P) c
 
 /// Chooses a place of the light's shape for each vertex. Random numbers follow from the vertex and the lamp
 /// [decision 0019]: a vertex' places are well apart, and those of vertices have nothing in common. Returns
-/// when each is taken of a light that moves, else nothing: then rays may have times of their own.
+/// when each is taken, where the light moves or rays have times of their own; else nothing.
 std::vector<float> LightRig::sample(const Turn& turn, const Lamp& lamp, const vm::Operand& P) {
     samples_.assign(kSamplePlanes * lanes_, 0);
     const auto put = [&](size_t plane, size_t lane, const V3f& v) {
         for (int k = 0; k < 3; ++k) samples_[(plane + static_cast<size_t>(k)) * lanes_ + lane] = v[k];
     };
     const bool has_normals = N_.size() == lanes_;
-    std::vector<float> times(lamp.moves() ? lanes_ : 0);
-    const auto of_lane = [&](size_t lane, uint32_t seed, const ShadingGrid* grid) {
+    std::vector<float> times(lamp.moves() || has_times_ ? lanes_ : 0);
+    turned_.assign(lanes_, 0);
+    // A lane, and the grid's vertex that it is.
+    struct Lit {
+        size_t lane;
+        uint32_t seed;
+        const ShadingGrid* grid = nullptr;
+        size_t vertex = 0;
+        const MotionTurn* surface = nullptr;
+    };
+    const auto take = [&](const Lit& lit) {
+        const size_t lane = lit.lane;
         float time = 0;
-        if (lamp.moves())
-            times[lane] = time =
-                lamp.time_near(time_of_sample(turn.sample, hash(seed, turn.lamp, kLightTimes), grid));
+        if (!times.empty()) {
+            time = time_of_sample(turn.sample, hash(lit.seed, turn.lamp, kLightTimes), lit.grid);
+            times[lane] = time = lamp.moves() ? lamp.time_near(time) : time;
+        }
         const LightSampler* const sampler = lamp.sampler_at(time);
         if (!sampler) return;
         const V3f point(vm::Run::at(P, 0, lane), vm::Run::at(P, 1, lane), vm::Run::at(P, 2, lane));
-        const V3f normal = has_normals ? V3f(N_[0][lane], N_[1][lane], N_[2][lane]) : V3f(0);
-        const RaySequence sequence(hash(seed, turn.lamp, kAreaLights), turn.samples);
+        V3f normal = has_normals ? V3f(N_[0][lane], N_[1][lane], N_[2][lane]) : V3f(0);
+        const bool is_hit = lit.grid && lit.vertex < lit.grid->I.size();
+        if (normal.dot(is_hit ? lit.grid->I.at(lit.vertex) : eye_way(point)) > 0) normal = -normal;
+        // A single direction lights what turns as it lies at shutter open, as lights without a shape do.
+        if (lit.surface && !sampler->is_point()) {
+            turned_[lane] = time;
+            normal = lit.surface->forward(normal, time);
+        }
+        const RaySequence sequence(hash(lit.seed, turn.lamp, kAreaLights), turn.samples);
         const LightSample made = sampler->sample(point, normal, sequence[turn.sample]);
         put(kSampleP, lane, made.P), put(kSampleN, lane, made.N), put(kRadiance, lane, made.radiance);
         samples_[kSolidAngle * lanes_ + lane] = std::isfinite(made.solid_angle) ? made.solid_angle : 0;
         samples_[kArea * lanes_ + lane] = sampler->area();
     };
     if (!surroundings_->batch)
-        for (size_t lane = 0; lane < lanes_; ++lane)
-            of_lane(lane, hash(static_cast<uint32_t>(lane), seed_), nullptr);
+        for (size_t lane = 0; lane < lanes_; ++lane) take({lane, hash(static_cast<uint32_t>(lane), seed_)});
     else
-        for (const vm::GridSpan& span : surroundings_->batch->spans) {
+        for (size_t number = 0; number < surroundings_->batch->spans.size(); ++number) {
+            const vm::GridSpan& span = surroundings_->batch->spans[number];
             const uint32_t grid =
                 hash(static_cast<uint32_t>(span.seed), static_cast<uint32_t>(span.seed >> 32), seed_);
             for (size_t i = 0; i < static_cast<size_t>(span.shape.vertex_count()); ++i)
-                of_lane(span.first + i, hash(grid, static_cast<uint32_t>(i)), span.grid);
+                take({span.first + i, hash(grid, static_cast<uint32_t>(i)), span.grid, i,
+                      &surface_turns_[number]});
         }
     return times;
+}
+
+/// Turns the ways to samples back to how surfaces lie as they are shaded; `L`: 3 planes.
+void LightRig::turn_back(float* L) const {
+    if (!has_times_) return;
+    for (size_t number = 0; number < surface_turns_.size(); ++number) {
+        const MotionTurn& surface = surface_turns_[number];
+        if (surface.is_none()) continue;
+        const vm::GridSpan& span = surroundings_->batch->spans[number];
+        for (size_t i = 0; i < static_cast<size_t>(span.shape.vertex_count()); ++i) {
+            const size_t lane = span.first + i;
+            const V3f way(L[lane], L[lanes_ + lane], L[2 * lanes_ + lane]);
+            const V3f back = surface.back(way, turned_[lane]);
+            for (int k = 0; k < 3; ++k) L[static_cast<size_t>(k) * lanes_ + lane] = back[k];
+        }
+    }
 }
 
 /// P and N are the sample's; "__solidangle", "__radiance" and "__area" tell the shader what it stands for.
@@ -257,6 +317,7 @@ Task<> LightRig::run(size_t light, Slot& slot, const vm::Operand& P) {
     context.ray_times = times;
     co_await lamp.shader->set_run_defaults(*machine_, registers, context, {});
     co_await machine_->run(registers, context);
+    if (lamp.area && program.directional) turn_back(output.L);
 
     Arriving& arriving = slot.arriving;
     arriving.ambient = !program.directional;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/scene/light_shape.h"
+#include "core/scene/motion_turn.h"
 #include "shade/lights/light_sampler.h"
 #include "shade/materials/bound_shader.h"
 #include "shade/materials/scene_spaces.h"
@@ -36,13 +37,16 @@ struct Lamp {
 
 /// Runs lights for one grid after another and keeps what arrives, so that several illuminance loops over the
 /// same points cost one run of each light. An area light counts as many lights, each of them at another place
-/// of its shape, and what arrives from each is divided by their number [decision 0030]. One per thread.
+/// of its shape, and what arrives from each is divided by their number [decision 0030]. Where a surface turns
+/// and its rays have times of their own, each sample sees it as it lies then: what arrives is turned back to
+/// how it is shaded, as the shutter opens. One per thread.
 class LightRig : public vm::Lights {
   public:
     /// Begins with the lights of a grid. `surroundings` is the surface's context; `N` are its normals (3
-    /// planes of `lanes` lanes, or none); `seed` that of the render. All must outlive the use.
+    /// planes of `lanes` lanes, or none); `seed` that of the render; `held` is Scene::held_from_camera. All
+    /// must outlive the use.
     void start(vm::Machine& machine, const std::vector<const Lamp*>& lamps, const vm::Context& surroundings,
-               size_t lanes, const Plane3& N, uint32_t seed = 0);
+               size_t lanes, const Plane3& N, uint32_t seed = 0, std::span<const M44f> held = {});
 
     size_t count() const override { return turns_.size(); }
     Task<const Arriving*> arriving(size_t light, const vm::Operand& P, bool lasting) override;
@@ -71,8 +75,11 @@ class LightRig : public vm::Lights {
     };
     Task<> run(size_t light, Slot& slot, const vm::Operand& P);
     void set_variables(vm::Registers& registers, const Lamp& lamp, const vm::Operand& P) const;
+    V3f eye_way(const V3f& point) const;
     void set_ray(const vm::Operand& out, bool way, const vm::Operand& P) const;
+    void find_surface_motion(std::span<const M44f> held);
     std::vector<float> sample(const Turn& turn, const Lamp& lamp, const vm::Operand& P);
+    void turn_back(float* L) const;
     void set_sample(vm::Registers& registers, const Lamp& lamp) const;
 
     vm::Machine* machine_ = nullptr;
@@ -83,7 +90,11 @@ class LightRig : public vm::Lights {
     uint32_t seed_ = 0;
     std::vector<Turn> turns_;
     std::deque<Slot> slots_;
+    bool has_times_ = false;                 ///< some surface's rays have times of their own
+    std::vector<MotionTurn> surface_turns_;  ///< of each grid, where it has
     std::vector<float> samples_;  ///< of the turn that is run: places, normals, solid angles and radiances
+    std::vector<float>
+        turned_;  ///< of the turn that is run: at which time each vertex' surface lies as sampled
 };
 
 }  // namespace trapeze

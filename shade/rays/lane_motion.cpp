@@ -15,11 +15,10 @@ LaneMotion::LaneMotion(const RayAsker& asker, const RayLane& lane, std::optional
     only_time_ = given.value_or(is_hit_ ? grid_->hit_time : 0);
     if (!varies_ && only_time_ == 0) return;
     shift_ = unit_float(hash(lane.seed, 7));
-    keys_ = static_cast<int>(grid_->P.size());
     // Rays' own geometry has no motion of the camera in it.
     if (!is_hit_) held_ = asker.service().held_from_camera;
-    if (!held_.empty() && keys_ == 1) keys_ = kHeldKeys;
-    if (keys_ > 1) turn_ = MotionTurn(*grid_->primitive, keys_, held_);
+    keys_ = motion_keys_of(*grid_, held_);
+    turn_ = turn_of(*grid_, held_);
 }
 
 V3f LaneMotion::turned(const V3f& direction, float time, bool diffuse) const {

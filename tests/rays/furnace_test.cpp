@@ -135,18 +135,19 @@ TEST_P(RayFurnace, ConvexThingsAreNotToBeSeenAtOneBounce) {
     }
 }
 
-/// Lights shine on surfaces as these lie at shutter open: not on what turns.
 class RayFurnaceOfALight : public ::testing::TestWithParam<FurnacePose> {};
 
 /// A white dome as a light, whose samples cast shadows. Most of them follow the cosine: they count 1.23 at
 /// most, an eighth is behind the surface, and independent ones have a deviation of 0.45. So 64 have 0.06, and
-/// 800 points 2e-3; strata help.
+/// 800 points 2e-3; strata help. What turns has another hemisphere at each sample's time: strata help little,
+/// and of so many points one is off by three or four deviations.
 TEST_P(RayFurnaceOfALight, ConvexThingsAreNotToBeSeen) {
     Case c = furnace(placed(GetParam(), furnace_ball), 1);
     c.may_say = "ris";
     c.asker += "AttributeBegin Light \"PxrDomeLight\" \"l\" \"int fixedSampleCount\" [64] AttributeEnd ";
     const Image image = c.render("Ci = diffuse(faceforward(normalize(N), point(0, 0, 4) - P));");
-    for (const Pixel& p : pixels(image)) ASSERT_NEAR(p.red, p.alpha, 0.12);
+    const float most = GetParam().turns != 0 ? 0.24f : 0.12f;
+    for (const Pixel& p : pixels(image)) ASSERT_NEAR(p.red, p.alpha, most);
     EXPECT_NEAR(mean_red(image), 1, 2e-3);
 }
 
@@ -284,7 +285,8 @@ INSTANTIATE_TEST_SUITE_P(, RayFurnace,
                                            kBoth),
                          name_of);
 INSTANTIATE_TEST_SUITE_P(, RayFurnaceOfALight,
-                         ::testing::Values(FurnacePose{"AtRest"}, kMoving, kGrowing, kDisplaced, kBoth),
+                         ::testing::Values(FurnacePose{"AtRest"}, kMoving, kGrowing, kTurning, kDisplaced,
+                                           kBoth),
                          name_of);
 
 }  // namespace
