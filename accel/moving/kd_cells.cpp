@@ -22,6 +22,11 @@ std::array<V3f, 7> separating_axes(const QuadPose& pose) {
             V3f(along_v.y, -along_v.x, 0)};
 }
 
+/// A quad's corners, coordinate by coordinate: the four are worked on at once.
+struct Corners {
+    float of_axis[3][4];
+};
+
 /// The least and largest of a box along an axis.
 struct AxisRange {
     float low = 0, high = 0;
@@ -40,12 +45,15 @@ AxisRange range_of_box(const Box3f& box, const V3f& axis) {
 
 SeparatingAxes::SeparatingAxes(const Grid& grid, const MicropolygonId& id, float pose_time)
     : keys_(grid.key_count) {
-    std::array<QuadPose, kMaxKeyCount> poses;
+    std::array<Corners, kMaxKeyCount> poses;
     for (size_t key = 0; key < keys_; ++key)
         for (size_t c = 0; c < 4; ++c) {
-            const V3f& p = poses[key][c] = vertex_of_key(
-                grid, static_cast<int>(key), id.u + static_cast<int>(c & 1), id.v + static_cast<int>(c >> 1));
-            for (int k = 0; k < 3; ++k) largest_ = std::max(largest_, std::abs(p[k]));
+            const V3f p = vertex_of_key(grid, static_cast<int>(key), id.u + static_cast<int>(c & 1),
+                                        id.v + static_cast<int>(c >> 1));
+            for (int k = 0; k < 3; ++k) {
+                poses[key].of_axis[k][c] = p[k];
+                largest_ = std::max(largest_, std::abs(p[k]));
+            }
         }
     for (const V3f& direction : separating_axes(pose_of(grid, id, pose_time))) {
         // Lengths do not matter, but a product that overflows or vanishes tells nothing.
@@ -54,9 +62,10 @@ SeparatingAxes::SeparatingAxes(const Grid& grid, const MicropolygonId& id, float
         Axis& axis = axes_[count_++];
         axis.unit = direction / length;
         for (size_t key = 0; key < keys_; ++key) {
-            const QuadPose& pose = poses[key];
-            const std::array<float, 4> at{axis.unit.dot(pose[0]), axis.unit.dot(pose[1]),
-                                          axis.unit.dot(pose[2]), axis.unit.dot(pose[3])};
+            const auto& [x, y, z] = poses[key].of_axis;
+            float at[4];
+            for (size_t c = 0; c < 4; ++c)
+                at[c] = axis.unit.x * x[c] + axis.unit.y * y[c] + axis.unit.z * z[c];
             axis.low[key] = std::min({at[0], at[1], at[2], at[3]});
             axis.high[key] = std::max({at[0], at[1], at[2], at[3]});
         }

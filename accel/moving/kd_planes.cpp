@@ -24,18 +24,20 @@ constexpr float kBesideBoxes = 4 * kBoundRounding;
 /// References from which one node's sums are made in parallel, in parts that do not depend on threads.
 constexpr size_t kParallelSumsFrom = 1 << 15;
 
-/// The planes of one node along one axis, and the weights of what begins and ends between them.
+/// The planes of one node along one axis, between kMost slabs at most, and the weights of what begins and
+/// ends between them. Most nodes are small: to clear and copy room for more than they have takes longer than
+/// their sums.
+template <size_t kMost>
 struct AxisPlanes {
     float first = 0, step = 0, steps_per_unit = 0;
     size_t count = 0;  ///< 0: none can be tried
     /// Weights that are at or below planes from this one on, or at or above planes down to this one.
-    std::array<double, kMostKdSlabs + 2> low_from{}, high_to{};
+    std::array<double, kMost + 2> low_from{}, high_to{};
     /// Weights of what crosses a plane while it moves.
-    std::array<double, kMostKdSlabs + 1> low_part{}, high_part{};
+    std::array<double, kMost + 1> low_part{}, high_part{};
 
-    AxisPlanes() = default;
-    AxisPlanes(float from, float to, size_t slabs)
-        : first(from), step((to - from) / static_cast<float>(slabs)) {
+    void divide(float from, float to, size_t slabs) {
+        first = from, step = (to - from) / static_cast<float>(slabs);
         // No planes where slabs are so thin that floats hardly tell their ends apart.
         if (step > 0 && at(1) > from && at(slabs - 1) < at(slabs)) count = slabs + 1;
         steps_per_unit = 1 / step;
@@ -104,8 +106,9 @@ class BoxOverTime {
 };
 
 /// Sums of a node's references over the planes of all axes.
+template <size_t kMost>
 struct PlaneSums {
-    std::array<AxisPlanes, 3> axis;
+    std::array<AxisPlanes<kMost>, 3> axis;
     /// What references reach beyond their boxes: a plane that close by has them on both sides.
     float margin = 0;
 
@@ -119,7 +122,7 @@ struct PlaneSums {
         };
         const BoxOverTime box(keys, pose_time, when);
         for (int k = 0; k < 3; ++k) {
-            AxisPlanes& planes = axis[static_cast<size_t>(k)];
+            AxisPlanes<kMost>& planes = axis[static_cast<size_t>(k)];
             if (planes.count == 0) continue;
             // Planes that a side moves across are looked at one by one. At those beyond it counts as a whole:
             // one entry, which consider_planes_of() carries on to the planes that follow.
@@ -140,19 +143,22 @@ struct PlaneSums {
     }
 };
 
-/// The sum of all references, in parts of the same size whatever the number of threads: floating-point sums
-/// depend on their order.
+/// Adds all references to a sum, which is zero, in parts of the same size whatever the number of threads:
+/// floating-point sums depend on their order.
 template <class Sum, class Add>
-Sum sum_in_parts(std::span<const KdReference> references, const Sum& zero, const Add& add) {
-    const auto of_part = [&](size_t first, size_t last, const Sum& before) {
-        Sum sum = before;
-        for (size_t i = first; i < last; ++i) add(references[i], sum);
-        return sum;
-    };
-    if (references.size() < kParallelSumsFrom) return of_part(0, references.size(), zero);
-    return tbb::parallel_deterministic_reduce(
+void add_in_parts(std::span<const KdReference> references, const Add& add, Sum& sum) {
+    if (references.size() < kParallelSumsFrom) {
+        for (const KdReference& reference : references) add(reference, sum);
+        return;
+    }
+    const Sum zero = sum;
+    sum = tbb::parallel_deterministic_reduce(
         tbb::blocked_range<size_t>(0, references.size(), kParallelSumsFrom / 4), zero,
-        [&](const auto& range, const Sum& sum) { return of_part(range.begin(), range.end(), sum); },
+        [&](const auto& range, const Sum& before) {
+            Sum part = before;
+            for (size_t i = range.begin(); i < range.end(); ++i) add(references[i], part);
+            return part;
+        },
         [](Sum a, const Sum& b) {
             a.add(b);
             return a;
@@ -181,13 +187,13 @@ struct Voters {
 };
 
 /// The cheapest plane of an axis, if it is cheaper than `best`.
-void consider_planes_of(const AxisPlanes& planes, int axis, const Box3f& cell, KdPlane& best) {
+template <size_t kMost>
+void consider_planes_of(const AxisPlanes<kMost>& planes, int axis, const Box3f& cell, KdPlane& best) {
     if (planes.count == 0) return;
     // Sums from above of what lies at or above a plane; those from below are made on the way.
-    std::array<double, kMostKdSlabs + 2> high_to_or_above{};
-    for (size_t p = planes.count + 1; p-- > 0;)
-        high_to_or_above[p] =
-            planes.high_to[p] + (p + 1 < high_to_or_above.size() ? high_to_or_above[p + 1] : 0);
+    std::array<double, kMost + 2> high_to_or_above;
+    double above_all = 0;
+    for (size_t p = planes.count + 1; p-- > 0;) high_to_or_above[p] = above_all += planes.high_to[p];
     const double cell_area = half_area(cell);
     double low = 0;
     for (size_t p = 0; p < planes.count; ++p) {
@@ -212,32 +218,50 @@ float KdPlanes::pose_time(const ShutterSpan& when) const {
 
 KdVote KdPlanes::vote(std::span<const KdReference> references, const Box3f& cell) const {
     const bool by_time = options_.weight == KdTreeOptions::Weight::Time;
-    const Voters voters = sum_in_parts(references, Voters{}, [&](const KdReference& r, Voters& sum) {
-        (r.guest ? sum.guests : sum.residents).add(r, by_time ? static_cast<double>(r.when.length()) : 1);
-    });
+    Voters voters;
+    add_in_parts(
+        references,
+        [&](const KdReference& r, Voters& sum) {
+            (r.guest ? sum.guests : sum.residents).add(r, by_time ? static_cast<double>(r.when.length()) : 1);
+        },
+        voters);
     const bool guests_too = voters.guests.count > voters.residents.count;
     Box3f extent = voters.residents.box;
     if (guests_too) extent.extendBy(voters.guests.box);
-
+    KdVote vote;
+    vote.leaf_cost = voters.residents.cost + (guests_too ? voters.guests.cost : 0);
     // Planes lie in the box of those who vote, hence a second pass over the references.
-    PlaneSums zero;
     const size_t slabs = std::clamp(references.size(), kLeastKdSlabs, kMostKdSlabs);
+    if (slabs == kLeastKdSlabs)
+        vote.best = best_plane<kLeastKdSlabs>(references, cell, extent, guests_too, slabs);
+    else
+        vote.best = best_plane<kMostKdSlabs>(references, cell, extent, guests_too, slabs);
+    return vote;
+}
+
+/// `extent`: of those who vote.
+template <size_t kMost>
+KdPlane KdPlanes::best_plane(std::span<const KdReference> references, const Box3f& cell, const Box3f& extent,
+                             bool guests_too, size_t slabs) const {
     float largest = 0;
     for (int k = 0; k < 3; ++k)
         largest = std::max({largest, std::abs(extent.min[k]), std::abs(extent.max[k])});
     // A plane at a side of a box leaves its owner on both sides: the first and last are a little beyond, and
     // cut off what is empty.
     const float beside = kBesideBoxes * largest;
-    zero.margin = beside / 2;
+    PlaneSums<kMost> sums;
+    sums.margin = beside / 2;
     for (int k = 0; k < 3; ++k)
-        zero.axis[static_cast<size_t>(k)] = AxisPlanes(extent.min[k] - beside, extent.max[k] + beside, slabs);
-    const PlaneSums sums = sum_in_parts(references, zero, [&](const KdReference& r, PlaneSums& sum) {
-        if (!r.guest || guests_too) sum.add(r, boxes_.keys(r.item), pose_time(r.when), options_.weight);
-    });
-    KdVote vote;
-    vote.leaf_cost = voters.residents.cost + (guests_too ? voters.guests.cost : 0);
-    for (int k = 0; k < 3; ++k) consider_planes_of(sums.axis[static_cast<size_t>(k)], k, cell, vote.best);
-    return vote;
+        sums.axis[static_cast<size_t>(k)].divide(extent.min[k] - beside, extent.max[k] + beside, slabs);
+    add_in_parts(
+        references,
+        [&](const KdReference& r, PlaneSums<kMost>& sum) {
+            if (!r.guest || guests_too) sum.add(r, boxes_.keys(r.item), pose_time(r.when), options_.weight);
+        },
+        sums);
+    KdPlane best;
+    for (int k = 0; k < 3; ++k) consider_planes_of(sums.axis[static_cast<size_t>(k)], k, cell, best);
+    return best;
 }
 
 }  // namespace trapeze

@@ -48,6 +48,10 @@ class KdPlanes {
     float pose_time(const ShutterSpan& when) const;
 
   private:
+    template <size_t kMost>
+    KdPlane best_plane(std::span<const KdReference> references, const Box3f& cell, const Box3f& extent,
+                       bool guests_too, size_t slabs) const;
+
     const SweptBoxes& boxes_;
     const KdTreeOptions& options_;
 };

@@ -4,22 +4,18 @@
 
 #include "core/motion_keys.h"
 
-namespace trapeze {
+namespace trapeze::shutter_span_detail {
 namespace {
-
-/// A crossing is a quotient of two differences, scaled and moved by whole numbers: a few half-ulps of 1.
-constexpr float kTimeRounding = 0x1p-20f;
 
 /// The span of `within` at which values, one a key, are at or below `at`.
 template <class ValueAt>
 ShutterSpan when_not_above(size_t keys, const ValueAt& value_at, float at, ShutterSpan within) {
     if (within.is_empty()) return ShutterSpan::none();
-    if (keys == 1) return value_at(0) <= at ? within : ShutterSpan::none();
-    if (keys == 2) {  // as below, of one segment
-        const bool begins_above = value_at(0) > at, ends_above = value_at(1) > at;
-        if (begins_above && ends_above) return ShutterSpan::none();
-        if (!begins_above && !ends_above) return within;
-    }
+    // Most things stay on one side: no times are asked for.
+    size_t above = 0;
+    for (size_t key = 0; key < keys; ++key) above += value_at(key) > at;
+    if (above == keys) return ShutterSpan::none();
+    if (above == 0) return within;
     const int count = static_cast<int>(keys);
     const float segments = static_cast<float>(count - 1);  // a power of two: quotients by it are exact
     ShutterSpan span = ShutterSpan::none();
@@ -65,4 +61,4 @@ ShutterSpan when_at_or_above(std::span<const Box3f> keys, int axis, float at, Sh
         keys.size(), [&](size_t key) { return -keys[key].max[axis]; }, -at, within);
 }
 
-}  // namespace trapeze
+}  // namespace trapeze::shutter_span_detail

@@ -2,6 +2,7 @@
 /// keeps with its references [Yang17 sec. 3.1.1].
 #pragma once
 
+#include <algorithm>
 #include <span>
 
 #include "core/math.h"
@@ -19,15 +20,54 @@ struct ShutterSpan {
     bool operator==(const ShutterSpan& o) const { return from == o.from && to == o.to; }
 };
 
+namespace shutter_span_detail {
+
+/// A crossing is a quotient of two differences, scaled and moved by whole numbers: a few half-ulps of 1.
+inline constexpr float kTimeRounding = 0x1p-20f;
+
+/// The shortest span of `within` that holds all times at which a value that goes from `begin` to `end` is at
+/// most `at`. Most things that move have two keys: it is inline for them.
+inline ShutterSpan when_not_above(float begin, float end, float at, ShutterSpan within) {
+    const bool begins_above = begin > at, ends_above = end > at;
+    if (within.is_empty() || (begins_above && ends_above)) return ShutterSpan::none();
+    if (begins_above == ends_above) return within;
+    const float crossing = (at - begin) / (end - begin);
+    if (begins_above)
+        within.from = std::max(within.from, crossing - kTimeRounding);
+    else
+        within.to = std::min(within.to, crossing + kTimeRounding);
+    return within.is_empty() ? ShutterSpan::none() : within;
+}
+
+// Of more keys than two.
+ShutterSpan when_at_or_below(std::span<const float> keys, float at, ShutterSpan within);
+ShutterSpan when_at_or_above(std::span<const float> keys, float at, ShutterSpan within);
+ShutterSpan when_at_or_below(std::span<const Box3f> keys, int axis, float at, ShutterSpan within);
+ShutterSpan when_at_or_above(std::span<const Box3f> keys, int axis, float at, ShutterSpan within);
+
+}  // namespace shutter_span_detail
+
 /// The shortest span of `within` that holds all times at which a value, linear between evenly spaced keys, is
 /// at most `at`. Grown by what its own arithmetic rounds; never beyond `within`.
-ShutterSpan when_at_or_below(std::span<const float> keys, float at, ShutterSpan within);
+inline ShutterSpan when_at_or_below(std::span<const float> keys, float at, ShutterSpan within) {
+    if (keys.size() > 2) return shutter_span_detail::when_at_or_below(keys, at, within);
+    return shutter_span_detail::when_not_above(keys.front(), keys.back(), at, within);
+}
 /// The same, where it is at least `at`.
-ShutterSpan when_at_or_above(std::span<const float> keys, float at, ShutterSpan within);
+inline ShutterSpan when_at_or_above(std::span<const float> keys, float at, ShutterSpan within) {
+    if (keys.size() > 2) return shutter_span_detail::when_at_or_above(keys, at, within);
+    return shutter_span_detail::when_not_above(-keys.front(), -keys.back(), -at, within);
+}
 
 /// The same of the lower side of a moving box, and the plane where coordinate `axis` is `at`.
-ShutterSpan when_at_or_below(std::span<const Box3f> keys, int axis, float at, ShutterSpan within);
+inline ShutterSpan when_at_or_below(std::span<const Box3f> keys, int axis, float at, ShutterSpan within) {
+    if (keys.size() > 2) return shutter_span_detail::when_at_or_below(keys, axis, at, within);
+    return shutter_span_detail::when_not_above(keys.front().min[axis], keys.back().min[axis], at, within);
+}
 /// The same of its upper side, at or above the plane.
-ShutterSpan when_at_or_above(std::span<const Box3f> keys, int axis, float at, ShutterSpan within);
+inline ShutterSpan when_at_or_above(std::span<const Box3f> keys, int axis, float at, ShutterSpan within) {
+    if (keys.size() > 2) return shutter_span_detail::when_at_or_above(keys, axis, at, within);
+    return shutter_span_detail::when_not_above(-keys.front().max[axis], -keys.back().max[axis], -at, within);
+}
 
 }  // namespace trapeze
