@@ -111,10 +111,10 @@ bool GridMessages::find_option(std::string_view name, rsl::Type type, const vm::
 }
 
 bool GridMessages::find(Op what, std::string_view name, rsl::Type type, const vm::Operand& out,
-                        std::string* text, size_t light) {
+                        std::string* text, const vm::Registers* light) {
     switch (what) {
         case Op::LightMessage:
-            return lights && copy_variable(lights->registers(light), name, type, out, text);
+            return copy_variable(light, name, type, out, text);
         case Op::SurfaceMessage:
             return copy_variable(surface, name, type, out, text);
         case Op::DisplacementMessage:

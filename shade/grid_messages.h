@@ -3,7 +3,8 @@
 #pragma once
 
 #include "core/scene/render_context.h"
-#include "shade/materials/light_rig.h"
+#include "shade/vm/context.h"
+#include "shade/vm/registers.h"
 
 namespace trapeze {
 
@@ -18,12 +19,11 @@ class GridMessages : public vm::Messages {
     const vm::Registers* surface = nullptr;
     const vm::Registers* displacement = nullptr;
     const vm::Registers* atmosphere = nullptr;
-    const LightRig* lights = nullptr;
     const Attributes* attributes = nullptr;
     std::string running;  ///< the name of the shader that runs
 
     bool find(rsl::Op what, std::string_view name, rsl::Type type, const vm::Operand& out, std::string* text,
-              size_t light) override;
+              const vm::Registers* light) override;
     std::string shader_name(std::string_view kind) override;
 
   private:

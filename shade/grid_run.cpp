@@ -93,7 +93,6 @@ GridRun::GridRun(const RenderContext& context, Textures& textures, const Materia
       messages_(context),
       batch_(batch_of(read_)) {
     messages_.attributes = material.attributes;
-    messages_.lights = &scratch.lights;
     if (rays) rays_.emplace(*rays, *material.attributes);
 }
 

@@ -15,6 +15,7 @@
 #include "shade/clouds/scene_surfels.h"
 #include "shade/grid_run.h"
 #include "shade/materials/named_maps.h"
+#include "shade/materials/sent_names.h"
 #include "shade/rays/ray_programs.h"
 #include "shade/take_aovs.h"
 
@@ -98,6 +99,7 @@ struct Shading::Impl {
     void take_surfel_stats(ShadeStats& stats) const;
 
     std::vector<const BoundShader*> asking_shaders() const;
+    bool gives_traced_map() const;
 
     const RenderContext& context;
     const Access& access;
@@ -204,6 +206,8 @@ std::vector<const BoundShader*> Shading::Impl::asking_shaders() const {
     std::set<std::string> varied = variables_of(*context.scene);
     // What area lights' shaders are told of each sample (LightRig).
     varied.insert({"__solidangle", "__radiance", "__area"});
+    // What illuminance gives to lights.
+    varied.insert(materials.sent_names().begin(), materials.sent_names().end());
     // What connections bring to layers is not known here.
     std::set<const BoundShader*> connected;
     for (const Material& material : materials.all())
@@ -211,18 +215,30 @@ std::vector<const BoundShader*> Shading::Impl::asking_shaders() const {
             if (shader && shader->layers.size() > 1)
                 connected.insert(shader->layers.begin(), shader->layers.end());
     const std::vector<const BoundShader*> shaders = materials.shaders();
-    std::set<const BoundShader*> of_area_lights;
-    for (const Lamp* lamp : materials.lamps())
+    std::set<const BoundShader*> of_area_lights, told;
+    for (const Lamp* lamp : materials.lamps()) {
         if (lamp->area) of_area_lights.insert(lamp->shader.get());
+        if (lamp->told && gives_traced_map()) told.insert(lamp->shader.get());
+    }
     const bool any_seen = std::ranges::any_of(context.scene->primitives, [](const Primitive& primitive) {
         return primitive.attributes->rays.seen();
     });
     std::vector<const BoundShader*> asking;
     std::ranges::copy_if(shaders, std::back_inserter(asking), [&](const BoundShader* shader) {
-        return asks_for_rays(*shader, connected.contains(shader) ? nullptr : &varied) &&
+        return asks_for_rays(*shader, connected.contains(shader) ? nullptr : &varied,
+                             told.contains(shader)) &&
                (any_seen || !of_area_lights.contains(shader));
     });
     return asking;
+}
+
+/// Whether what is sent to lights may be the name of rays for that of a shadow map.
+bool Shading::Impl::gives_traced_map() const {
+    return std::ranges::any_of(materials.shaders(), [](const BoundShader* shader) {
+        std::set<std::string> names;
+        add_sent_names(shader->program(), names);
+        return !names.empty() && knows_traced_map(*shader);
+    });
 }
 
 bool Shading::asks_rays() const {
@@ -230,7 +246,8 @@ bool Shading::asks_rays() const {
 }
 
 bool Shading::asks_clouds_alone() const {
-    return std::ranges::all_of(impl_->asking_shaders(),
+    return !impl_->gives_traced_map() &&
+           std::ranges::all_of(impl_->asking_shaders(),
                                [](const BoundShader* shader) { return trapeze::asks_clouds_alone(*shader); });
 }
 

@@ -229,16 +229,41 @@ void Generator::light_block(const Statement& s) {
             op = Op::Illuminate, end = Op::EndIlluminate;
         }
     }
-    for (const ExpressionPtr& e : s.expressions) inputs.push_back(value(*e));
+    const size_t plain = s.expressions.size() - s.named;
+    for (size_t i = 0; i < plain; ++i) inputs.push_back(value(*s.expressions[i]));
+    const size_t plain_inputs = inputs.size();
+    for (size_t i = plain; i + 1 < s.expressions.size(); i += 2)
+        option_for_lights(*s.expressions[i], *s.expressions[i + 1], inputs);
     // Light from all sides comes from where the surface looks.
     if (op == Op::Solar && inputs.empty()) inputs.push_back(global("Ns", Base::Normal));
     if (op == Op::Illuminate) inputs.insert(inputs.begin(), global("Ps", Base::Point));
     // keep_inputs() may insert copies in front of it, when all of the body is known.
     const size_t opening = code_->size();
+    if (s.at.line) at_ = s.at;
     open(op, outputs, inputs);
+    if (op == Op::Illuminance) (*code_)[opening].immediate = static_cast<int32_t>(plain_inputs);
     statement(*s.children[0]);
     close(end);
     if (op == Op::Illuminance) keep_inputs(opening);
+}
+
+/// A name and a value behind the plain inputs of Illuminance. Arrays are sent as they are when the loop
+/// begins: keep_inputs() does not copy them.
+void Generator::option_for_lights(const Expression& name, const Expression& argument, Ids& inputs) {
+    RegisterId sent = value(argument);
+    const Type type = program_->reg(sent).type;
+    if (type.is_unsized())
+        return diagnostics_.warning(
+            argument.at,
+            fmt::format("\"{}\" of illuminance is ignored: arrays that grow are not sent", name.text),
+            "rsl-send-type " + name.text);
+    if (type.is_array()) {
+        const RegisterId copy = add_register(Register::Kind::Local, type);
+        copy_array(sent, copy, type.base);
+        sent = copy;
+    }
+    inputs.push_back(constant_text(name.text));
+    inputs.push_back(sent);
 }
 
 /// A loop over lights or rays asks for its inputs again in each turn: those that its turns change become

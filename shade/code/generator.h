@@ -107,6 +107,7 @@ class Generator {
     void if_statement(const Statement& s);
     void loop_statement(const Statement& s);
     void light_block(const Statement& s);
+    void option_for_lights(const Expression& name, const Expression& argument, Ids& inputs);
     void keep_inputs(size_t opening);
     void gather_statement(const Statement& s);
     void return_statement(const Statement& s);

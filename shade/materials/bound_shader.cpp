@@ -227,9 +227,10 @@ void BoundShader::set_parameters(vm::Registers& registers, std::span<const Shadi
 }
 
 Task<> BoundShader::set_run_defaults(vm::Machine& machine, vm::Registers& registers,
-                                     const vm::Context& context,
-                                     std::span<const ShadingGrid* const> grids) const {
+                                     const vm::Context& context, std::span<const ShadingGrid* const> grids,
+                                     std::span<const size_t> given) const {
     for (const size_t i : run_defaults_) {
+        if (std::ranges::find(given, i) != given.end()) continue;
         const rsl::ProgramParameter& parameter = program().parameters[i];
         // Grids of one run all have the variable, or none has (can_share_run()).
         if (grids.empty() || !suitable_variable(*grids.front(), parameter.name, parameter.type))

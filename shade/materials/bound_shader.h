@@ -28,9 +28,11 @@ class BoundShader {
     void set_parameters(vm::Registers& registers, std::span<const ShadingGrid* const> grids) const;
 
     /// Computes the defaults that follow from the point (Executable::has_run_default) of parameters that
-    /// nothing else gives, once the registers have their parameters and predefined variables.
+    /// nothing else gives, once the registers have their parameters and predefined variables. `given`: those
+    /// that have been given another value, as indices of program().parameters.
     Task<> set_run_defaults(vm::Machine& machine, vm::Registers& registers, const vm::Context& context,
-                            std::span<const ShadingGrid* const> grids) const;
+                            std::span<const ShadingGrid* const> grids,
+                            std::span<const size_t> given = {}) const;
 
     /// The shader's laid-out code, by which machines know their registers for it.
     const std::shared_ptr<const vm::Executable>& executable() const { return executable_; }

@@ -1,5 +1,7 @@
 #include "shade/materials/light_rig.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -59,6 +61,24 @@ void copy_operand(const vm::Operand& from, int width, size_t lanes, const vm::Op
 /// Rays of a grid's surface have times of their own: it asks for that, or has been hit at one.
 bool has_times(const ShadingGrid& grid) {
     return grid.hit_vertex >= 0 ? grid.hit_time > 0 : grid.primitive->attributes->rays.sample_motion;
+}
+
+/// Numbers of the registers (Machine::registers()) of lights that are given values begin here: others have
+/// the number of the light.
+constexpr size_t kTold = size_t{1} << 32;
+
+/// A value for some lanes of a parameter that varies, component by component of all elements; for all where
+/// it is the same everywhere.
+void give_lanes(const vm::SentValue& sent, size_t lanes, const uint32_t* mask, const vm::Operand& to) {
+    const int width = rsl::width_of(sent.type.base);
+    for (size_t e = 0; e < static_cast<size_t>(std::max(sent.type.length, 1)); ++e)
+        for (size_t k = 0; k < static_cast<size_t>(width); ++k) {
+            const float* const source =
+                sent.value.data + e * sent.value.element_stride + k * sent.value.stride;
+            float* const target = to.data + e * to.element_stride + k * to.stride;
+            for (size_t i = 0; i < lanes; ++i)
+                if (mask[i] || !sent.value.lane_mask) target[i] = source[i & sent.value.lane_mask];
+        }
 }
 
 /// When a sample of an area light is taken for a vertex: where rays of its surface have times of their own,
@@ -126,16 +146,53 @@ void LightRig::find_surface_motion(std::span<const M44f> held) {
     }
 }
 
-Task<const vm::Lights::Arriving*> LightRig::arriving(size_t light, const vm::Operand& P, bool lasting) {
+Task<const vm::Lights::Arriving*> LightRig::arriving(size_t light, const vm::LightRequest& request) {
+    if (!request.sent.empty()) {
+        const std::vector<Taken> taken = taken_by(lamp(light), request);
+        if (!taken.empty()) {
+            while (told_.size() <= request.depth) told_.emplace_back();
+            Slot& slot = told_[request.depth];
+            co_await run(light, slot, request, taken);
+            co_return &slot.arriving;
+        }
+    }
     Slot& slot = slots_[light];
-    if (lasting && slot.lasts) co_return &slot.arriving;
-    co_await run(light, slot, P);
-    slot.lasts = lasting;
+    if (request.lasting && slot.lasts && !request.refresh) co_return &slot.arriving;
+    co_await run(light, slot, request, {});
+    slot.lasts = request.lasting;
     co_return &slot.arriving;
 }
 
-const vm::Registers* LightRig::registers(size_t light) const {
-    return light < count() ? slots_[light].arriving.registers : nullptr;
+/// Types fit as they do in messages: by their numbers, so that a normal may be given for a vector.
+std::vector<LightRig::Taken> LightRig::taken_by(const Lamp& lamp, const vm::LightRequest& request) const {
+    std::vector<Taken> taken;
+    if (!lamp.told) return taken;
+    const rsl::Program& program = lamp.told->program();
+    for (const vm::SentValue& sent : request.sent) {
+        const auto has_name = [&](const rsl::ProgramParameter& p) { return p.name == sent.name; };
+        const auto at = std::ranges::find_if(program.parameters, has_name);
+        if (at == program.parameters.end()) continue;
+        const auto numbers = [](const rsl::Type& type) { return rsl::width_of(type.base); };
+        if (at->type.length == sent.type.length && numbers(at->type) == numbers(sent.type))
+            taken.push_back({static_cast<size_t>(at - program.parameters.begin()), &sent});
+        else if (surroundings_->diagnostics)
+            surroundings_->diagnostics->warning(
+                request.at,
+                fmt::format("light shader \"{}\" declares \"{}\" as another type than what illuminance "
+                            "sends, and does not take it",
+                            program.name, sent.name),
+                fmt::format("rsl-sent-type {} {}", program.name, sent.name));
+    }
+    return taken;
+}
+
+/// Texts are the same in all lanes.
+void LightRig::give(vm::Registers& registers, std::span<const Taken> taken, const uint32_t* lanes) const {
+    for (const Taken& one : taken) {
+        const rsl::RegisterId id = registers.program().parameters[one.parameter].id;
+        for (size_t e = 0; e < one.value->texts.size(); ++e) registers.text(id, e) = one.value->texts[e];
+        if (one.value->texts.empty()) give_lanes(*one.value, lanes_, lanes, registers.operand(id));
+    }
 }
 
 void LightRig::set_variables(vm::Registers& registers, const Lamp& lamp, const vm::Operand& P) const {
@@ -283,19 +340,25 @@ void LightRig::set_sample(vm::Registers& registers, const Lamp& lamp) const {
     }
 }
 
-Task<> LightRig::run(size_t light, Slot& slot, const vm::Operand& P) {
+Task<> LightRig::run(size_t light, Slot& slot, const vm::LightRequest& request,
+                     std::span<const Taken> taken) {
     const Turn& turn = turns_[light];
     const Lamp& lamp = *(*lamps_)[turn.lamp];
-    const rsl::Program& program = lamp.shader->program();
-    vm::Registers& registers = machine_->registers(lamp.shader->executable(), light);
+    const vm::Operand& P = request.P;
+    const BoundShader& shader = taken.empty() ? *lamp.shader : *lamp.told;
+    vm::Registers& registers =
+        machine_->registers(shader.executable(), taken.empty() ? light : kTold + request.depth);
     registers.start(lanes_);
-    lamp.shader->set_parameters(registers, {});
+    shader.set_parameters(registers, {});
     set_variables(registers, lamp, P);
     std::vector<float> times;
     if (lamp.area) {
         times = sample(turn, lamp, P);
         set_sample(registers, lamp);
     }
+    give(registers, taken, request.lanes);
+    std::vector<size_t> given;
+    for (const Taken& one : taken) given.push_back(one.parameter);
     if (slot.capacity < lanes_) {
         slot.planes = {static_cast<float*>(std::aligned_alloc(64, kPlanes * lanes_ * sizeof(float))),
                        std::free};
@@ -306,7 +369,7 @@ Task<> LightRig::run(size_t light, Slot& slot, const vm::Operand& P) {
     vm::LightOutput output;
     output.L = planes + kL * lanes_;
     output.lit = reinterpret_cast<uint32_t*>(planes + kLit * lanes_);
-    if (program.directional) {
+    if (shader.program().directional) {
         std::memset(output.L, 0, 3 * lanes_ * sizeof(float));
         std::memset(output.lit, 0, lanes_ * sizeof(float));
     }
@@ -315,10 +378,17 @@ Task<> LightRig::run(size_t light, Slot& slot, const vm::Operand& P) {
     context.light_output = &output;
     context.lights = nullptr;
     context.ray_times = times;
-    co_await lamp.shader->set_run_defaults(*machine_, registers, context, {});
+    co_await shader.set_run_defaults(*machine_, registers, context, {}, given);
     co_await machine_->run(registers, context);
-    if (lamp.area && program.directional) turn_back(output.L);
+    if (lamp.area && shader.program().directional) turn_back(output.L);
+    tell(turn, output, registers, slot);
+}
 
+/// What arrives of a light that has run.
+void LightRig::tell(const Turn& turn, const vm::LightOutput& output, const vm::Registers& registers,
+                    Slot& slot) {
+    const rsl::Program& program = registers.program();
+    float* const planes = slot.planes.get();
     Arriving& arriving = slot.arriving;
     arriving.ambient = !program.directional;
     arriving.distant = output.distant;
@@ -344,9 +414,9 @@ Task<> LightRig::run(size_t light, Slot& slot, const vm::Operand& P) {
         for (size_t i = 0; i < 3 * lanes_; ++i) arrives.data[i] *= share;
 }
 
-bool LightRig::in_category(size_t light, std::string_view wanted) {
+bool LightRig::in_category(const Arriving& light, std::string_view wanted) {
     if (wanted.empty()) return true;
-    const vm::Registers* own = registers(light);
+    const vm::Registers* own = light.registers;
     std::string_view categories;
     if (own)
         for (const rsl::ProgramParameter& parameter : own->program().parameters)

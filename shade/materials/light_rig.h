@@ -17,6 +17,9 @@ namespace trapeze {
 struct Lamp {
     std::unique_ptr<SceneSpaces> spaces;  ///< spaces by name, as the light's shader sees them
     std::unique_ptr<BoundShader> shader;
+    /// The same with varying parameters where illuminance of any shader of the scene may send values for
+    /// them ("send:light:NAME"); null where there are none.
+    std::unique_ptr<BoundShader> told;
     V3f position;               ///< the origin of its shader space, in camera space: P of the light shader
     bool asks_surface = false;  ///< by surface(): for variables of the surface that it shines on
     /// What it shines from, where its shader asks for points of that; else null.
@@ -39,7 +42,8 @@ struct Lamp {
 /// same points cost one run of each light. An area light counts as many lights, each of them at another place
 /// of its shape, and what arrives from each is divided by their number [decision 0030]. Where a surface turns
 /// and its rays have times of their own, each sample sees it as it lies then: what arrives is turned back to
-/// how it is shaded, as the shutter opens. One per thread.
+/// how it is shaded, as the shutter opens. A light that is given values runs for itself each time, and what
+/// is kept of it stays. One per thread.
 class LightRig : public vm::Lights {
   public:
     /// Begins with the lights of a grid. `surroundings` is the surface's context; `N` are its normals (3
@@ -49,11 +53,9 @@ class LightRig : public vm::Lights {
                size_t lanes, const Plane3& N, uint32_t seed = 0, std::span<const M44f> held = {});
 
     size_t count() const override { return turns_.size(); }
-    Task<const Arriving*> arriving(size_t light, const vm::Operand& P, bool lasting) override;
-    bool in_category(size_t light, std::string_view wanted) override;
+    Task<const Arriving*> arriving(size_t light, const vm::LightRequest& request) override;
+    bool in_category(const Arriving& light, std::string_view wanted) override;
 
-    /// The light's variables, for lightsource(), once it has run; null before.
-    const vm::Registers* registers(size_t light) const;
     const Lamp& lamp(size_t light) const { return *(*lamps_)[turns_[light].lamp]; }
 
     /// All lights of a surface together run so often for a point: area lights take fewer samples than asked
@@ -73,7 +75,15 @@ class LightRig : public vm::Lights {
         size_t capacity = 0;  ///< lanes that `planes` have room for
         std::unique_ptr<float, void (*)(void*)> planes{nullptr, nullptr};
     };
-    Task<> run(size_t light, Slot& slot, const vm::Operand& P);
+    /// A parameter of a light and the value that it is given.
+    struct Taken {
+        size_t parameter = 0;  ///< index in the program's
+        const vm::SentValue* value = nullptr;
+    };
+    std::vector<Taken> taken_by(const Lamp& lamp, const vm::LightRequest& request) const;
+    void give(vm::Registers& registers, std::span<const Taken> taken, const uint32_t* lanes) const;
+    Task<> run(size_t light, Slot& slot, const vm::LightRequest& request, std::span<const Taken> taken);
+    void tell(const Turn& turn, const vm::LightOutput& output, const vm::Registers& registers, Slot& slot);
     void set_variables(vm::Registers& registers, const Lamp& lamp, const vm::Operand& P) const;
     V3f eye_way(const V3f& point) const;
     void set_ray(const vm::Operand& out, bool way, const vm::Operand& P) const;
@@ -92,6 +102,7 @@ class LightRig : public vm::Lights {
     std::deque<Slot> slots_;
     bool has_times_ = false;                 ///< some surface's rays have times of their own
     std::vector<MotionTurn> surface_turns_;  ///< of each grid, where it has
+    std::deque<Slot> told_;       ///< of lights that are given values, by the depth of the block that does so
     std::vector<float> samples_;  ///< of the turn that is run: places, normals, solid angles and radiances
     std::vector<float>
         turned_;  ///< of the turn that is run: at which time each vertex' surface lies as sampled

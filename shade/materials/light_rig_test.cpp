@@ -44,7 +44,8 @@ class OneLamp {
         const vm::Context surroundings;
         LightRig rig;
         rig.start(machine_, lamps, surroundings, kLanes, {});
-        const vm::Lights::Arriving& light = *rig.arriving(0, operand, false).get();
+        const vm::LightRequest request{.P = operand};
+        const vm::Lights::Arriving& light = *rig.arriving(0, request).get();
         const auto first = [](const float* p) { return V3f(p[0], p[kLanes], p[2 * kLanes]); };
         if (light.ambient) return {V3f(0), V3f(0), first(light.Cl)};
         return {first(light.L), first(light.direction), first(light.Cl)};

@@ -7,6 +7,7 @@
 #include "shade/code/slice_code.h"
 #include "shade/materials/grid_parts.h"
 #include "shade/materials/grid_shader.h"
+#include "shade/materials/sent_names.h"
 #include "shade/materials/stand_in_light.h"
 #include "shade/materials/unknown_parameters.h"
 
@@ -44,6 +45,18 @@ Materials::Materials(const RenderContext& context, const Access& access)
         }
         of_primitive_.push_back(at->second);
     }
+    for (const BoundShader& layer : layers_) add_sent_names(layer.program(), sent_names_);
+    for (Lamp* lamp : lamp_order_) prepare_for_values(*lamp);
+}
+
+/// What is sent may differ from vertex to vertex, whatever a light's shader declares.
+void Materials::prepare_for_values(Lamp& lamp) {
+    const std::vector<rsl::ProgramParameter>& parameters = lamp.shader->program().parameters;
+    if (std::ranges::none_of(parameters, [&](const auto& p) { return sent_names_.contains(p.name); })) return;
+    const ShaderInstance& instance = lamp.shader->instance();
+    auto executable = library_.find(instance.name, rsl::ShaderKind::Light, sent_names_, instance.location);
+    if (executable)
+        lamp.told = std::make_unique<BoundShader>(std::move(executable), instance, *lamp.spaces, nullptr);
 }
 
 void Materials::add(const Attributes& attributes, const Names& varying) {

@@ -63,6 +63,8 @@ class Materials {
     std::vector<const BoundShader*> shaders() const;
     /// Every light that shines on a primitive.
     const std::vector<Lamp*>& lamps() const { return lamp_order_; }
+    /// Names of lights' parameters for which shaders may send values.
+    const std::set<std::string>& sent_names() const { return sent_names_; }
     /// How many shaders have turned out to have loops without an end.
     size_t endless_count() const;
 
@@ -77,6 +79,7 @@ class Materials {
     const LayeredShader* opacity_of(const LayeredShader& surface);
     const Lamp* lamp(const LightInstance& instance);
     const ShaderInstance* in_the_middle(const LightInstance& instance, const ShaderInstance& shader);
+    void prepare_for_values(Lamp& lamp);
     void report_missing(std::string_view request, const ShaderInstance& instance, std::string_view instead);
 
     const RenderContext& context_;
@@ -91,6 +94,7 @@ class Materials {
     std::unordered_map<const LightInstance*, std::unique_ptr<Lamp>> lamps_;
     std::vector<Lamp*> lamp_order_;  ///< as the scene asks for them
     std::deque<Material> materials_;
+    Names sent_names_;
     std::vector<uint32_t> of_primitive_;  ///< primitive -> index of its material
 };
 

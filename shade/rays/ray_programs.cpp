@@ -34,8 +34,8 @@ bool traces_maps(const rsl::Program& program, const BoundShader& shader) {
 }
 
 /// Whether the code may trace.
-bool asks(const rsl::Program& program, const BoundShader& shader) {
-    const bool traced = traces_maps(program, shader);
+bool asks(const rsl::Program& program, const BoundShader& shader, bool given_traced_map) {
+    const bool traced = given_traced_map || traces_maps(program, shader);
     return calls(program.code, traced) ||
            std::ranges::any_of(shader.program().parameters,
                                [&](const rsl::ProgramParameter& p) { return calls(p.initial, traced); });
@@ -127,9 +127,13 @@ bool keeps_answers_apart(const rsl::Program& program) {
     });
 }
 
-bool asks_for_rays(const BoundShader& shader, const std::set<std::string>* varied) {
-    if (!asks(shader.program(), shader)) return false;
-    return !varied || asks(specialised_program(shader, *varied), shader);
+bool asks_for_rays(const BoundShader& shader, const std::set<std::string>* varied, bool given_traced_map) {
+    if (!asks(shader.program(), shader, given_traced_map)) return false;
+    return !varied || asks(specialised_program(shader, *varied), shader, given_traced_map);
+}
+
+bool knows_traced_map(const BoundShader& shader) {
+    return traces_maps(shader.program(), shader);
 }
 
 bool asks_clouds_alone(const BoundShader& shader) {

@@ -9,8 +9,12 @@
 namespace trapeze {
 
 /// Whether the shader may trace rays, with the parameters that it has; those in `varied` may have any values.
-/// Without it, that holds for all.
-bool asks_for_rays(const BoundShader& shader, const std::set<std::string>* varied = nullptr);
+/// Without it, that holds for all. `given_traced_map`: others may give it the name of rays for that of a map.
+bool asks_for_rays(const BoundShader& shader, const std::set<std::string>* varied = nullptr,
+                   bool given_traced_map = false);
+
+/// Whether the shader knows the name by which rays are asked in place of a map.
+bool knows_traced_map(const BoundShader& shader);
 
 /// Whether all calls of the shader that may trace ask files of point clouds (occlusion(), "pointbased").
 bool asks_clouds_alone(const BoundShader& shader);

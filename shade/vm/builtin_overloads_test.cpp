@@ -44,13 +44,13 @@ class TwoLights : public Lights {
         for (size_t i = 0; i < kLanes; ++i) std::memcpy(&planes_[9 * kLanes + i], &all, sizeof all);
     }
     size_t count() const override { return 2; }
-    Task<const Arriving*> arriving(size_t light, const Operand&, bool) override {
+    Task<const Arriving*> arriving(size_t light, const LightRequest&) override {
         arriving_.ambient = light == 0;
         const float colors[2][3] = {{0.1f, 0.2f, 0.3f}, {1, 2, 4}};
         for (size_t k = 0; k < 3; ++k) std::fill_n(&planes_[(6 + k) * kLanes], kLanes, colors[light][k]);
         co_return &arriving_;
     }
-    bool in_category(size_t, std::string_view) override { return true; }
+    bool in_category(const Arriving&, std::string_view) override { return true; }
 
   private:
     alignas(64) std::array<float, 10 * kLanes> planes_{};  // the grid has 12 vertices
@@ -59,7 +59,8 @@ class TwoLights : public Lights {
 
 class KnownMessages : public Messages {
   public:
-    bool find(rsl::Op, std::string_view name, rsl::Type, const Operand& out, std::string*, size_t) override {
+    bool find(rsl::Op, std::string_view name, rsl::Type, const Operand& out, std::string*,
+              const Registers*) override {
         if (name == "known") std::fill_n(out.data, kLanes, 0.25f);
         return name == "known";
     }

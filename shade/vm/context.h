@@ -68,6 +68,26 @@ class Clouds {
     virtual bool over_discs(Run& run, const Step& step, std::span<const Operand> operands) = 0;
 };
 
+/// What an illuminance block gives to lights in place of a parameter's own value ("send:light:NAME").
+struct SentValue {
+    std::string_view name;               ///< of the parameter
+    rsl::Type type;                      ///< not an array that grows
+    Operand value;                       ///< not of texts
+    std::span<const std::string> texts;  ///< of texts, all elements
+};
+
+/// What is asked of a light.
+struct LightRequest {
+    Operand P;
+    bool lasting = false;  ///< P will not change in this run, and what was found for it may be kept
+    bool refresh = false;  ///< the light is run, whatever has been kept
+    std::span<const SentValue> sent = {};
+    const uint32_t* lanes = nullptr;  ///< mask of those that send: others have the light's own values where
+                                      ///< what is sent differs from lane to lane
+    size_t depth = 0;                 ///< of the illuminance block that asks, in others
+    SourceLocation at = {};           ///< of that block
+};
+
 /// The lights of a grid, and what they send to points. A light is known by its number, from 0 on; an area
 /// light counts as many, each of them at another place of its shape [decision 0030].
 class Lights {
@@ -76,7 +96,8 @@ class Lights {
     virtual size_t count() const = 0;
 
     /// One light as the points of a batch see it. The planes belong to whoever implements Lights and hold
-    /// until the next call for the same light; their lanes are those of the run that asked.
+    /// until the next call for the same light; what it sends where it is given values holds until the next
+    /// call of that depth. Their lanes are those of the run that asked.
     struct Arriving {
         bool ambient = false;
         const float* L = nullptr;              ///< to the light; 3 planes
@@ -87,11 +108,11 @@ class Lights {
         float diffuse = 1, specular = 1;       ///< shares in those built-in functions
         const Registers* registers = nullptr;  ///< the light's variables
     };
-    /// `lasting`: P will not change in this run, and what was found for it may be kept.
-    virtual Task<const Arriving*> arriving(size_t light, const Operand& P, bool lasting) = 0;
+    /// The request must live until the task is done.
+    virtual Task<const Arriving*> arriving(size_t light, const LightRequest& request) = 0;
     /// Whether its category (output parameter __category) is among those wanted: "a,b", or "-a" for all
     /// others.
-    virtual bool in_category(size_t light, std::string_view wanted) = 0;
+    virtual bool in_category(const Arriving& light, std::string_view wanted) = 0;
 };
 
 /// The rays of a gather block, of which each lane has one in each turn. It is made when a block is entered,
@@ -135,9 +156,9 @@ class Messages {
   public:
     virtual ~Messages() = default;
     /// False when there is no such value of that type; else sets it in all lanes of the output, or the text.
-    /// `light` is that of the illuminance block which asks.
+    /// `light`: the variables of the light of the illuminance block which asks; null where there is none.
     virtual bool find(rsl::Op what, std::string_view name, rsl::Type type, const Operand& out,
-                      std::string* text, size_t light) = 0;
+                      std::string* text, const Registers* light) = 0;
     virtual std::string shader_name(std::string_view kind) = 0;
 };
 

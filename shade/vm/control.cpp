@@ -8,6 +8,7 @@
 #include <array>
 #include <cstring>
 
+#include "shade/rsl/syntax/ast.h"
 #include "shade/vm/kernels/light_kernels.h"
 #include "shade/vm/machine.h"
 
@@ -88,7 +89,7 @@ Task<size_t> Run::waiting_control(const std::vector<Step>& steps, size_t at) {
     scratch_used_ = 0;
     switch (step.op) {
         case Op::Illuminance:
-            if (!enter_lights()) co_return step.target + 1;
+            if (!enter_lights(step)) co_return step.target + 1;
             co_return co_await next_light(steps, at);
         case Op::EndIlluminance:
             co_return co_await next_light(steps, step.target);
@@ -205,11 +206,28 @@ size_t Run::jump_step(const Step& step) {
 
 /// False when there is nothing to loop over. Illuminance is a loop for the masks, whose turns are lights:
 /// break and continue in it mean what they mean in other loops.
-bool Run::enter_lights() {
+bool Run::enter_lights(const Step& step) {
     if (!context_.lights || context_.lights->count() == 0) return false;
+    LightLoop loop;
+    for (size_t i = static_cast<size_t>(step.immediate); step.outputs + i + 1 < step.count; i += 2) {
+        const std::string_view name = registers_.text_input(step, i);
+        const rsl::RegisterId value = registers_.register_of(step, step.outputs + i + 1);
+        const rsl::Type type = registers_.reg(value).type;
+        if (!name.starts_with(rsl::kSendToLight)) {  // "lightcache"
+            loop.refresh = registers_.text(value) == "refresh";
+            continue;
+        }
+        SentValue& sent = loop.sent.emplace_back();
+        sent.name = name.substr(rsl::kSendToLight.size());
+        sent.type = type;
+        if (type.base == rsl::Base::String)
+            sent.texts = {&registers_.text(value), static_cast<size_t>(std::max(type.length, 1))};
+        else
+            sent.value = registers_.operand(value);
+    }
+    if (!loop.sent.empty()) loop.lanes.assign(masks_.current(), masks_.current() + lanes());
     masks_.enter_loop();
-    next_lights_.push_back(0);
-    lights_of_turns_.push_back(nullptr);
+    light_loops_.push_back(std::move(loop));
     return true;
 }
 
@@ -218,14 +236,22 @@ bool Run::enter_lights() {
 Task<size_t> Run::next_light(const std::vector<Step>& steps, size_t opening) {
     const Step& step = steps[opening];
     const Operand& P = registers_.input(step, 1);
-    const bool with_cone = step.count - step.outputs == 4;
+    const bool with_cone = step.immediate == 4;
     Lights& lights = *context_.lights;
-    while (next_lights_.back() < lights.count() && !masks_.loop_is_over()) {
-        if (next_lights_.back() > 0 && steps_are_spent(step, step.target - opening)) break;
-        const size_t number = next_lights_.back()++;
+    LightLoop& loop = light_loops_.back();
+    const LightRequest request{.P = P,
+                               .lasting = is_lasting_P(P),
+                               .refresh = loop.refresh,
+                               .sent = loop.sent,
+                               .lanes = loop.lanes.data(),
+                               .depth = light_loops_.size() - 1,
+                               .at = step.at};
+    while (loop.next < lights.count() && !masks_.loop_is_over()) {
+        if (loop.next > 0 && steps_are_spent(step, step.target - opening)) break;
+        const size_t number = loop.next++;
         // The light's own shader runs here, if what it sends to P is not known yet.
-        const Lights::Arriving& light = *co_await lights.arriving(number, P, is_lasting_P(P));
-        if (light.ambient || !lights.in_category(number, registers_.text_input(step, 0))) continue;
+        const Lights::Arriving& light = *co_await lights.arriving(number, request);
+        if (light.ambient || !lights.in_category(light, registers_.text_input(step, 0))) continue;
         // Lanes that the light does not reach, or outside the cone asked for, sit this turn out.
         const float* reached = light.lit;
         scratch_used_ = 0;
@@ -244,12 +270,11 @@ Task<size_t> Run::next_light(const std::vector<Step>& steps, size_t opening) {
         const Operand &L = registers_.operands_of(step)[0], &Cl = registers_.operands_of(step)[1];
         std::memcpy(L.data, light.L, 3 * lanes() * sizeof(float));
         std::memcpy(Cl.data, light.Cl, 3 * lanes() * sizeof(float));
-        current_light_ = number;
-        lights_of_turns_.back() = &light;
+        loop.light = &light;
+        last_light_ = light.registers;
         co_return opening + 1;
     }
-    next_lights_.pop_back();
-    lights_of_turns_.pop_back();
+    light_loops_.pop_back();
     masks_.leave_block();
     co_return step.target + 1;
 }

@@ -34,8 +34,9 @@ Task<> sum_lights(Run& run, const Step& step, std::span<const Operand> operands,
     Lights* lights = run.context().lights;
     if (!lights) co_return;
     const Operand& P = run.registers().input(step, 0);
+    const LightRequest request{.P = P, .lasting = run.is_lasting_P(P)};
     for (size_t i = 0; i < lights->count(); ++i) {
-        const Lights::Arriving* const light = co_await lights->arriving(i, P, run.is_lasting_P(P));
+        const Lights::Arriving* const light = co_await lights->arriving(i, request);
         if (light->ambient == ambient) add(run, step.op, operands, *light);
     }
 }

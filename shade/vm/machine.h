@@ -70,11 +70,13 @@ class Run {
     Registers& registers() { return registers_; }
     const Context& context() const { return context_; }
     MaskStack& masks() { return masks_; }
-    /// In an illuminance block: the number of the light.
-    size_t current_light() const { return current_light_; }
     /// In an illuminance block: what the light of this turn sends; else null.
     const Lights::Arriving* light_of_turn() const {
-        return lights_of_turns_.empty() ? nullptr : lights_of_turns_.back();
+        return light_loops_.empty() ? nullptr : light_loops_.back().light;
+    }
+    /// The variables of that light; behind all blocks those of the last turn's.
+    const Registers* asked_light() const {
+        return light_of_turn() ? light_of_turn()->registers : last_light_;
     }
     /// Whether an operand is the predefined P, which this program never sets.
     bool is_lasting_P(const Operand& operand) const {
@@ -120,9 +122,8 @@ class Run {
     size_t if_step(const Step& step, size_t at);
     size_t loop_step(const std::vector<Step>& steps, size_t at);
     size_t jump_step(const Step& step);
-    /// Loops over lights and rays: the numbers of the next light and the rays are on stacks, for these loops
-    /// nest.
-    bool enter_lights();
+    /// Loops over lights and rays: what they have come to is on stacks, for these loops nest.
+    bool enter_lights(const Step& step);
     const float* P_data() const;
     /// Bounds of LoopLimits, which end what a mistake in a shader would never end.
     bool steps_are_spent(const Step& opening, size_t steps);
@@ -139,15 +140,21 @@ class Run {
     const Context& context_;
     Machine::Level& level_;
     MaskStack& masks_;
-    // Of the Illuminance blocks that are being run.
-    std::vector<size_t> next_lights_;
-    std::vector<const Lights::Arriving*> lights_of_turns_;
+    /// An Illuminance block that is being run.
+    struct LightLoop {
+        size_t next = 0;  ///< number of the next turn's light
+        const Lights::Arriving* light = nullptr;
+        bool refresh = false;
+        std::vector<SentValue> sent;
+        std::vector<uint32_t> lanes;  ///< that run, if anything is sent
+    };
+    std::vector<LightLoop> light_loops_;
+    const Registers* last_light_ = nullptr;
     std::vector<std::unique_ptr<GatherTurns>> gathers_;  ///< of the Gather blocks that are being run
     std::unordered_map<const Step*, int> turns_;
     static constexpr int kMostPrinted = 100'000;
     int64_t loop_steps_ = 0;
     int printed_ = 0;
-    size_t current_light_ = 0;
     size_t scratch_used_ = 0;
 };
 

@@ -17,7 +17,7 @@ void ask(Run& run, const Step& step, std::span<const Operand> operands) {
     if (run.context().messages && !type.is_unsized())
         found = run.context().messages->find(
             step.op, registers.text_input(step, 0), type, operands[1],
-            type.base == rsl::Base::String ? &registers.text(value) : nullptr, run.current_light());
+            type.base == rsl::Base::String ? &registers.text(value) : nullptr, run.asked_light());
     fill_operand(run, operands[0], std::array{found ? 1.0f : 0.0f});
 }
 
@@ -25,7 +25,7 @@ void ask(Run& run, const Step& step, std::span<const Operand> operands) {
 void is_light_category(Run& run, const Step& step, std::span<const Operand> operands) {
     Lights* const lights = run.context().lights;
     const bool is_so = lights && run.light_of_turn() &&
-                       lights->in_category(run.current_light(), run.registers().text_input(step, 0));
+                       lights->in_category(*run.light_of_turn(), run.registers().text_input(step, 0));
     fill_operand(run, operands[0], std::array{is_so ? 1.0f : 0.0f});
 }
 

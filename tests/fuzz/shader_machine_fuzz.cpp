@@ -54,7 +54,7 @@ class ThreeLights : public Lights {
   public:
     ThreeLights() {
         constexpr size_t lanes = kLanes;
-        for (size_t i = 0; i < 9 * lanes; ++i) planes_[i] = number_of("light", i);
+        set_planes();
         for (size_t i = 0; i < lanes; ++i) {
             const uint32_t bits = i % 3 ? ~0u : 0u;
             std::memcpy(&planes_[9 * lanes + i], &bits, sizeof bits);
@@ -65,13 +65,27 @@ class ThreeLights : public Lights {
         arriving_.lit = planes_.data() + 9 * lanes;
     }
     size_t count() const override { return 3; }
-    Task<const Arriving*> arriving(size_t light, const Operand&, bool) override {
+    /// What is sent is seen in the colour.
+    Task<const Arriving*> arriving(size_t light, const LightRequest& request) override {
         arriving_.ambient = light == 1;
+        light_ = light;
+        set_planes();
+        for (const SentValue& sent : request.sent)
+            for (size_t i = 0; i < kLanes; ++i)
+                if (request.lanes[i])
+                    planes_[6 * kLanes + i] = sent.texts.empty()
+                                                  ? Run::at(sent.value, 0, i)
+                                                  : static_cast<float>(sent.texts.back().size());
         co_return &arriving_;
     }
-    bool in_category(size_t light, std::string_view wanted) override { return wanted.size() != light; }
+    bool in_category(const Arriving&, std::string_view wanted) override { return wanted.size() != light_; }
 
   private:
+    void set_planes() {
+        for (size_t i = 0; i < 9 * kLanes; ++i) planes_[i] = number_of("light", i);
+    }
+
+    size_t light_ = 0;
     alignas(64) std::array<float, 10 * kLanes> planes_{};
     Arriving arriving_;
 };
@@ -79,12 +93,12 @@ class ThreeLights : public Lights {
 class AnyMessages : public Messages {
   public:
     bool find(rsl::Op, std::string_view name, rsl::Type type, const Operand& out, std::string* text,
-              size_t light) override {
+              const Registers*) override {
         if (name.size() % 2) return false;
         if (text) *text = name;
         const int planes = rsl::width_of(type.base) * std::max(type.length, 1);
         for (size_t i = 0; i < static_cast<size_t>(planes) * kLanes; ++i)
-            out.data[i] = out.lane_mask ? number_of(name, i + light) : number_of(name, i / kLanes);
+            out.data[i] = out.lane_mask ? number_of(name, i) : number_of(name, i / kLanes);
         return true;
     }
     std::string shader_name(std::string_view kind) override { return "shader " + std::string(kind); }

@@ -160,24 +160,50 @@ StatementPtr Analyser::message_of_light(const Expression& option, ExpressionPtr 
     return statement;
 }
 
+/// Whether a named option of illuminance is for lights, to which a run hands it on; says what is wrong with
+/// others. That lights are not run again ("reuse") is so anyhow, where they may be known.
+bool Analyser::is_for_lights(const Expression& option, const Expression& value, const std::string& word) {
+    const bool literal = option.kind == Expression::Kind::Text && word == "illuminance";
+    if (literal && option.text == "lightcache") {
+        if (value.kind != Expression::Kind::Text || value.text == "refresh") return true;
+        if (value.text != "reuse")
+            reporter_.warning(
+                value.at,
+                "\"lightcache\" of illuminance knows \"refresh\" and \"reuse\", not \"" + value.text + "\"");
+        return false;
+    }
+    if (literal && option.text.starts_with(kSendToLight)) {
+        if (option.text.size() > kSendToLight.size()) return true;
+        error(option.at, "\"" + option.text + "\" of illuminance names no parameter");
+        return false;
+    }
+    reporter_.warning(option.at, "\"" + option.text + "\" of " + word + " is ignored");
+    return false;
+}
+
 /// "name", value, ... behind the arguments of a loop over lights or of a light's block. They are known by a
 /// string literal from which on names and values pair up to the end; categories are strings, too, and so a
-/// lone one stays.
+/// lone one stays. What is for lights stays, too.
 void Analyser::take_options(Statement& s, const std::string& word) {
     const size_t given = s.expressions.size();
     for (size_t i = s.kind == Statement::Kind::Solar ? 0 : 1; i < given; ++i) {
         if (s.expressions[i]->kind != Expression::Kind::Text || (given - i) % 2 != 0) continue;
         std::vector<StatementPtr> messages;
+        size_t kept = i;
         for (size_t name = i; name < given; name += 2) {
-            const Expression& option = *s.expressions[name];
-            const bool from_light =
-                s.kind == Statement::Kind::Illuminance && option.text.starts_with("light:");
-            if (from_light)
-                messages.push_back(message_of_light(option, std::move(s.expressions[name + 1])));
-            else if (option.text != "lightcache")  // which changes no value
-                reporter_.warning(option.at, "\"" + option.text + "\" of " + word + " is ignored");
+            ExpressionPtr option = std::move(s.expressions[name]), value = std::move(s.expressions[name + 1]);
+            const bool from_light = s.kind == Statement::Kind::Illuminance &&
+                                    option->kind == Expression::Kind::Text &&
+                                    option->text.starts_with("light:");
+            if (from_light) {
+                messages.push_back(message_of_light(*option, std::move(value)));
+            } else if (is_for_lights(*option, *value, word)) {
+                s.expressions[kept++] = std::move(option);
+                s.expressions[kept++] = std::move(value);
+            }
         }
-        s.expressions.resize(i);
+        s.expressions.resize(kept);
+        s.named = kept - i;
         if (messages.empty()) return;
         auto block = std::make_unique<Statement>();
         block->kind = Statement::Kind::Block, block->at = s.at;
@@ -186,6 +212,14 @@ void Analyser::take_options(Statement& s, const std::string& word) {
         s.children[0] = std::move(block);
         return;
     }
+}
+
+/// What stands behind a name that is for lights.
+void Analyser::value_for_lights(const std::string& name, ExpressionPtr& e) {
+    const bool sent = name != "lightcache";
+    value(e, sent ? Base::Void : Base::String);
+    if (sent && (e->type.base == Base::Void || e->type.base == Base::Bool))
+        error(e->at, "\"" + name + "\" of illuminance has no value to send");
 }
 
 /// illuminance([category,] P [, axis, angle]), illuminate(P [, axis, angle]), solar([axis, angle]). The
@@ -205,7 +239,7 @@ void Analyser::light_loop(Statement& s) {
     take_options(s, word);
     // What each argument is converted to; there are as many as the form that was meant has arguments.
     std::vector<Base> wanted;
-    const size_t given = s.expressions.size();
+    const size_t given = s.expressions.size() - s.named;
     if (illuminance && given > 0) {
         // The category is known by being a string.
         choices_.clear();
@@ -226,6 +260,10 @@ void Analyser::light_loop(Statement& s) {
                                                                  : "([axis, angle])"));
     } else {
         for (size_t i = 0; i < given; ++i) value(s.expressions[i], wanted[i]);
+    }
+    for (size_t i = given; i + 1 < s.expressions.size(); i += 2) {
+        value(s.expressions[i], Base::String);
+        value_for_lights(s.expressions[i]->text, s.expressions[i + 1]);
     }
     // The statement's body reads or sets these, named in the source or not.
     global("L");

@@ -375,13 +375,31 @@ TEST(Analysis, SplinesHaveFourKnots) {
 TEST(Analysis, OptionsOfLightBlocksAreIgnored) {
     EXPECT_EQ(in_surface("illuminance(\"a\", P, N, 1, \"lightcache\", \"reuse\") ;"), "")
         << "which changes nothing";
-    EXPECT_EQ(in_surface("float b; illuminance(P, \"send:light:x\", Kd, \"light:b\", b) ;"),
-              "warning 1:91: \"send:light:x\" of illuminance is ignored\n");
+    EXPECT_EQ(in_surface("float b; illuminance(P, \"send:surface:x\", Kd, \"light:b\", b) ;"),
+              "warning 1:91: \"send:surface:x\" of illuminance is ignored\n");
     EXPECT_THAT(in_surface("illuminance(P, \"light:b\", 1) ;"), ::testing::HasSubstr("must be a variable"));
     EXPECT_EQ(said("light t() { illuminate(P, N, 1, \"inshadows\", 1) Cl = 1; }"),
               "warning 1:33: \"inshadows\" of illuminate is ignored\n");
     EXPECT_EQ(said("light t() { solar(\"x\", 1) Cl = 1; }"), "warning 1:19: \"x\" of solar is ignored\n");
     EXPECT_EQ(in_surface("illuminance(\"a\", P) ;"), "");
+}
+
+TEST(Analysis, IlluminanceSendsValuesToLights) {
+    EXPECT_EQ(
+        in_surface("float k[2] = 1; string q = \"reuse\"; illuminance(\"a\", P, N, 1, \"send:light:x\", Kd,"
+                   " \"lightcache\", q, \"send:light:y\", k, \"send:light:z\", noise(P)) ;"),
+        "");
+    EXPECT_EQ(in_surface("illuminance(P, \"send:light:\", 1) ;"),
+              "error 1:82: \"send:light:\" of illuminance names no parameter\n");
+    EXPECT_EQ(in_surface("illuminance(P, \"send:light:x\", s < t) ;"),
+              "error 1:100: \"send:light:x\" of illuminance has no value to send\n");
+    EXPECT_EQ(in_surface("illuminance(P, \"send:light:x\", printf(\"\")) ;"),
+              "error 1:98: \"send:light:x\" of illuminance has no value to send\n");
+    EXPECT_EQ(in_surface("illuminance(P, \"send:light:x\", nothing) ;"),
+              "error 1:98: there is no variable \"nothing\"\n");
+    EXPECT_EQ(in_surface("illuminance(P, \"lightcache\", \"never\") ;"),
+              "warning 1:96: \"lightcache\" of illuminance knows \"refresh\" and \"reuse\", not \"never\"\n");
+    EXPECT_THAT(in_surface("illuminance(P, \"lightcache\", P) ;"), ::testing::HasSubstr("error 1:96: "));
 }
 
 /// As shaders for 3Delight, BMRT and PRMan have it.

@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/diagnostics.h"
@@ -132,7 +133,7 @@ struct Statement {
         If,           ///< expression 0; children: then, else (if there is one)
         While,        ///< expression 0; child 0
         For,          ///< expressions: initial, condition, step (each may be null), further steps; child 0
-        Illuminance,  ///< expressions: [category,] position [, axis, angle]; child 0
+        Illuminance,  ///< expressions: [category,] position [, axis, angle], `named` ones; child 0
         Illuminate,   ///< expressions: position [, axis, angle]; child 0
         Solar,        ///< expressions: [axis, angle]; child 0
         Gather,       ///< expressions: the arguments; children: body, else (if there is one)
@@ -144,12 +145,16 @@ struct Statement {
     Kind kind = Kind::Empty;
     int levels = 1;
     bool open = false;  ///< of a Block: no braces, and no scope, of its own
+    size_t named = 0;   ///< of an Illuminance: expressions at the end that are names and values in turn
     std::vector<ExpressionPtr> expressions;
     std::vector<StatementPtr> children;
     std::vector<std::unique_ptr<Variable>> variables;
     const Function* defines = nullptr;  ///< of an Empty: the nested function that was written here
     SourceLocation at;
 };
+
+/// What stands in front of a parameter's name where illuminance gives lights a value for it.
+inline constexpr std::string_view kSendToLight = "send:light:";
 
 /// Whether gather() sets the variable that follows a name: "surface:Ci" and its like bring something back.
 /// "send:..." goes to the shaders that rays hit.

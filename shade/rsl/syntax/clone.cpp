@@ -44,6 +44,7 @@ StatementPtr clone(const Statement& s) {
     copy->kind = s.kind;
     copy->levels = s.levels;
     copy->open = s.open;
+    copy->named = s.named;
     copy->defines = s.defines;
     copy->at = s.at;
     for (const ExpressionPtr& e : s.expressions) copy->expressions.push_back(clone(e));
