@@ -109,10 +109,11 @@ RegisterId Generator::builtin_value(const Expression& e, std::optional<RegisterI
 }
 
 /// Predefined variables that a function reads without being given them. In front where the operation's row in
-/// op_table.def has P first, otherwise behind the arguments.
+/// op_table.def has P first, otherwise behind the arguments. Lights know no Ng of what they shine on: what
+/// they turn to the eye is its own reference.
 void Generator::add_unnamed_inputs(Op op, Ids& inputs) {
     if (op_traits::has(op, op_traits::kNeedsNg) && inputs.size() == 2)
-        inputs.push_back(global("Ng", Base::Normal));
+        inputs.push_back(shader_.kind == ShaderKind::Light ? inputs.front() : global("Ng", Base::Normal));
     if (op_traits::has(op, op_traits::kNeedsUV))
         for (const char* parameter : {"u", "v"}) inputs.push_back(global(parameter, Base::Float));
     if (op == Op::RayWay) {

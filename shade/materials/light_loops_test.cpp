@@ -243,6 +243,20 @@ TEST(Illuminate, LightsFromAPointWithinACone) {
         [](const V3f&) { return 2.0f; }, [](const V3f&) { return false; });
 }
 
+TEST(Illuminate, NormalsTurnToTheEye) {
+    LitProbe probe;
+    probe.folder().write("facing", "light facing() { illuminate(Ps + faceforward(Ns, I)) { Cl = 1; } }");
+    probe.folder().write("probe", "surface probe() { Oi = 1; Ci = 0; illuminance(P) Ci += -zcomp(L); }");
+    probe.scene().light("facing");
+    probe.scene().surface("probe");
+    for (const float z : {-1.0f, 1.0f}) {
+        ShadingGrid grid = probe.scene().grid();
+        grid.N.fill(grid.vertex_count(), V3f(0, 0, z));
+        const ShadingGrid shaded = probe.scene().shaded(grid);
+        for (const float red : shaded.Ci.c[0]) EXPECT_FLOAT_EQ(red, 1);
+    }
+}
+
 TEST(Solar, LightsAlongAnAxisOrFromAllSides) {
     expect_light(
         "solar(vector (0, 3, 4), 0) { Cl = ycomp(L) / length(L); }", [](const V3f&) { return 0.6f; },
