@@ -88,7 +88,7 @@ GridRun::GridRun(const RenderContext& context, Textures& textures, const Materia
       grids_(grids),
       read_(to_read(grids)),
       scratch_(scratch),
-      maps_(textures, *context.scene),
+      maps_(textures, *context.scene, context.seed),
       clouds_(clouds),
       messages_(context),
       batch_(batch_of(read_)) {

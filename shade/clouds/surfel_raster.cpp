@@ -28,10 +28,9 @@ constexpr float kEdge = kPixel;
 
 /// Floats that are worked on together: the compiler makes vectors of them.
 constexpr int kRasterLanes = SurfelRaster::kLanes;
-using Lanes = SurfelRaster::Lanes;
 
 /// In an order of its own, the same everywhere.
-float added(const Lanes& lanes) {
+float added(const SurfelRaster::Lanes& lanes) {
     float sum = 0;
     for (const float lane : lanes) sum += lane;
     return sum;

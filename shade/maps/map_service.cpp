@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "shade/maps/sky_turns.h"
 #include "shade/planes/differences.h"
 #include "shade/vm/context_ops.h"
 #include "shade/vm/kernels/neighbours.h"
@@ -302,6 +303,13 @@ void MapService::sky(std::string_view name, SourceLocation at, std::span<const V
     const Plane out[] = {plane_of(3, 0), plane_of(3, 1), plane_of(3, 2)};
     textures_.environment(picture, {triple_of(0), triple_of(1), triple_of(2)}, {}, {count, {}}, out);
     for (size_t i = 0; i < count; ++i) colors[i] = {out[0][i], out[1][i], out[2][i]};
+}
+
+std::unique_ptr<vm::GatherTurns> MapService::gather_sky(std::string_view name, Run& run, const Step& step,
+                                                        std::span<const Operand> operands) {
+    std::shared_ptr<const SkyParts> parts = textures_.sky_parts(name, step.at);
+    if (!parts) return {};
+    return std::make_unique<SkyTurns>(std::move(parts), run, step, operands, seed_);
 }
 
 void MapService::shadow(Run& run, const Step& step, std::span<const Operand> operands) {

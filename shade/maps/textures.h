@@ -42,6 +42,8 @@ struct TextureReading {
     TextureReading(Transfer its_transfer = Transfer::Linear) : transfer(its_transfer) {}
 };
 
+class SkyParts;
+
 class Textures {
   public:
     /// Option "limits" "texturememory" (kilobytes) bounds the memory; searched are the folders of
@@ -79,6 +81,10 @@ class Textures {
         std::optional<M44f> projection_matrix;  ///< screen_from_world, -1..1 across the picture and up it
     };
     std::optional<Info> info(std::string_view name);
+
+    /// An environment map in parts that send as much light each; null for one that cannot be read, which is
+    /// reported once. Thread-safe.
+    std::shared_ptr<const SkyParts> sky_parts(std::string_view name, SourceLocation location);
 
     // All lookups are thread-safe.
 

@@ -64,6 +64,10 @@ struct Textures::Impl {
     /// The depths of a map, row by row; null, and reported, when they cannot be read or are too many.
     std::shared_ptr<const std::vector<float>> all_depths(const DepthMap& map, SourceLocation location);
 
+    /// Reading a map takes long, too. No more than kMostSkies are kept.
+    std::mutex skies_mutex;
+    std::map<std::string, std::shared_ptr<const SkyParts>, std::less<>> skies;
+
     /// Makes the cache when the first file is opened, which also opens the module that has it. Returns why
     /// there is none, or nothing. The mutex is held.
     std::string start();

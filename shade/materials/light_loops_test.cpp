@@ -287,5 +287,21 @@ TEST(Gather, TakesTheOtherHalfForEachRayThatMisses) {
     }
 }
 
+/// A map is named by a parameter, as lights have it.
+TEST(Gather, OfAMapAsksForNoRays) {
+    const auto asks_rays = [](const std::string& category) {
+        LitProbe probe;
+        probe.folder().write("sky", "light sky(string map = \"\") { color c = 0; Cl = 0; gather(concat(" +
+                                        category +
+                                        ", map), 0, 0, 0, 4, \"environment:color\", c) Cl += c; }");
+        probe.folder().write("probe", "surface probe() { Ci = ambient(); }");
+        probe.scene().light("sky", {text("map", "none.tx")});
+        probe.scene().surface("probe");
+        return Shading(probe.scene().context).asks_rays();
+    };
+    EXPECT_FALSE(asks_rays("\"environment:\""));
+    EXPECT_TRUE(asks_rays("\"illuminance\""));
+}
+
 }  // namespace
 }  // namespace trapeze

@@ -69,6 +69,8 @@ enum : uint32_t {
 
 /// The name of a map that asks for rays instead, as shaders of PRMan have it.
 inline constexpr std::string_view kTracedMap = "raytrace";
+/// In front of a map's name: the category of gather() that asks the map, and sends no rays.
+inline constexpr std::string_view kOfEnvironment = "environment:";
 
 /// Predefined variables that no source can name, inputs of Op::RayWay.
 inline constexpr std::string_view kRayOrigin = "ray:origin", kRayWay = "ray:way";

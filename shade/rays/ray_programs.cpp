@@ -10,9 +10,18 @@ namespace {
 
 using rsl::Op;
 
-bool calls(const rsl::Code& code, bool maps_are_traced) {
+/// Whether an instruction is a gather that asks a map for sure.
+bool gathers_of_map(const rsl::Program& program, const rsl::Instruction& i) {
+    if (i.op != Op::Gather) return false;
+    const rsl::Register& category = program.reg(i.input(0));
+    return category.kind == rsl::Register::Kind::Constant && !category.texts.empty() &&
+           category.texts.front().starts_with(rsl::kOfEnvironment);
+}
+
+bool calls(const rsl::Program& program, const rsl::Code& code, bool maps_are_traced) {
     return std::ranges::any_of(code, [&](const rsl::Instruction& i) {
-        return rsl::sends_rays(i.op) || ((i.op == Op::Shadow || i.op == Op::Environment) && maps_are_traced);
+        return (rsl::sends_rays(i.op) && !gathers_of_map(program, i)) ||
+               ((i.op == Op::Shadow || i.op == Op::Environment) && maps_are_traced);
     });
 }
 
@@ -36,9 +45,11 @@ bool traces_maps(const rsl::Program& program, const BoundShader& shader) {
 /// Whether the code may trace.
 bool asks(const rsl::Program& program, const BoundShader& shader, bool given_traced_map) {
     const bool traced = given_traced_map || traces_maps(program, shader);
-    return calls(program.code, traced) ||
-           std::ranges::any_of(shader.program().parameters,
-                               [&](const rsl::ProgramParameter& p) { return calls(p.initial, traced); });
+    const auto asks_in_default = [&](const rsl::ProgramParameter& p) {
+        return calls(shader.program(), p.initial, traced);
+    };
+    return calls(program, program.code, traced) ||
+           std::ranges::any_of(shader.program().parameters, asks_in_default);
 }
 
 /// Whether an instruction is occlusion() or indirectdiffuse() with a "filename", and "pointbased" that is not
@@ -139,7 +150,7 @@ bool knows_traced_map(const BoundShader& shader) {
 bool asks_clouds_alone(const BoundShader& shader) {
     const rsl::Program& program = shader.program();
     return !traces_maps(program, shader) && std::ranges::all_of(program.code, [&](const rsl::Instruction& i) {
-        return !rsl::sends_rays(i.op) || is_of_cloud(program, i);
+        return !rsl::sends_rays(i.op) || gathers_of_map(program, i) || is_of_cloud(program, i);
     });
 }
 

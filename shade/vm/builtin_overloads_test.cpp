@@ -71,6 +71,10 @@ class KnownMessages : public Messages {
 
 class CountingMaps : public Maps {
   public:
+    std::unique_ptr<GatherTurns> gather_sky(std::string_view, Run&, const Step&,
+                                            std::span<const Operand>) override {
+        return {};
+    }
     void look_up(Run& run, const Step& step, std::span<const Operand> operands) override {
         const size_t lanes = operands[0].lane_mask ? run.lanes() : kLanes;
         if (step.op == rsl::Op::TextureInfo) {

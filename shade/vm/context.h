@@ -41,6 +41,19 @@ class Spaces {
     virtual std::optional<M44f> matrix(std::string_view from, std::string_view to) const = 0;
 };
 
+/// The rays of a gather block, of which each lane has one in each turn. It is made when a block is entered,
+/// once for all its lanes, and dropped when the block is left; blocks nest, and each has its own.
+class GatherTurns {
+  public:
+    virtual ~GatherTurns() = default;
+    /// Takes the next turn of the lanes whose bits are set in `live`, which only ever lose some, and sets the
+    /// outputs in these. False when no lane has a ray left.
+    virtual Task<bool> next(Run& run, const uint32_t* live) = 0;
+    /// Masks of the lanes whose ray of this turn hits something, and of those where it does not.
+    virtual const float* hits() const = 0;
+    virtual const float* misses() const = 0;
+};
+
 /// Texture, environment and shadow maps, by the names that shaders write. shade/maps implements it over
 /// files; the machine hands on whole steps and not single lookups, since what one costs besides its
 /// arithmetic (finding the file, reading the named arguments) is paid once for a batch.
@@ -53,6 +66,10 @@ class Maps {
     /// that there is (radians). Black where it cannot be read.
     virtual void sky(std::string_view name, SourceLocation at, std::span<const V3f> directions,
                      std::span<const float> widths, std::span<V3f> colors) = 0;
+    /// The turns of Op::Gather in an environment map: parts of it. Null where it cannot be read. The operands
+    /// stay as they are until the block is left.
+    virtual std::unique_ptr<GatherTurns> gather_sky(std::string_view name, Run& run, const Step& step,
+                                                    std::span<const Operand> operands) = 0;
 };
 
 /// Point clouds: files of discs that bake3d() writes and texture3d(), occlusion() and indirectdiffuse() read
@@ -113,19 +130,6 @@ class Lights {
     /// Whether its category (output parameter __category) is among those wanted: "a,b", or "-a" for all
     /// others.
     virtual bool in_category(const Arriving& light, std::string_view wanted) = 0;
-};
-
-/// The rays of a gather block, of which each lane has one in each turn. It is made when a block is entered,
-/// once for all its lanes, and dropped when the block is left; blocks nest, and each has its own.
-class GatherTurns {
-  public:
-    virtual ~GatherTurns() = default;
-    /// Takes the next turn of the lanes whose bits are set in `live`, which only ever lose some, and sets the
-    /// outputs in these. False when no lane has a ray left.
-    virtual Task<bool> next(Run& run, const uint32_t* live) = 0;
-    /// Masks of the lanes whose ray of this turn hits something, and of those where it does not.
-    virtual const float* hits() const = 0;
-    virtual const float* misses() const = 0;
 };
 
 /// What raylabel() and rayinfo() tell of the ray that has hit the points which are shaded.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "shade/operations/op_table.h"
 #include "shade/vm/machine.h"
 
 namespace trapeze::vm {
@@ -29,22 +30,33 @@ class RaysIntoNothing final : public GatherTurns {
 
 }  // namespace
 
+/// The turns of a block: of rays, or of an environment map. Where that is not there is no turn.
+std::unique_ptr<GatherTurns> Run::gather_turns(const Step& step) {
+    constexpr size_t kSamples = 4;
+    const std::string_view category = registers_.text_input(step, 0);
+    const std::span<const Operand> operands = registers_.operands_of(step);
+    if (category.starts_with(rsl::kOfEnvironment)) {
+        std::unique_ptr<GatherTurns> turns;
+        if (context_.maps)
+            turns =
+                context_.maps->gather_sky(category.substr(rsl::kOfEnvironment.size()), *this, step, operands);
+        if (turns) return turns;
+        return std::make_unique<RaysIntoNothing>(lanes(), 0.0f);
+    }
+    if (context_.rays) return context_.rays->gather(*this, step, operands);
+    return std::make_unique<RaysIntoNothing>(lanes(), at(registers_.input(step, kSamples), 0, 0));
+}
+
 /// Gather and EndGather. Gather opens the block and starts its first turn. EndGather starts the next one; it
 /// also counts the steps of the turn that has ended, for a gather of very many samples is a loop like any
 /// other (LoopLimits).
 Task<size_t> Run::gather_step(const std::vector<Step>& steps, size_t at_step) {
     const Step& step = steps[at_step];
     switch (step.op) {
-        case Op::Gather: {
-            constexpr size_t kSamples = 4;
+        case Op::Gather:
             masks_.enter_loop();
-            if (context_.rays)
-                gathers_.push_back(context_.rays->gather(*this, step, registers_.operands_of(step)));
-            else
-                gathers_.push_back(
-                    std::make_unique<RaysIntoNothing>(lanes(), at(registers_.input(step, kSamples), 0, 0)));
+            gathers_.push_back(gather_turns(step));
             co_return co_await next_rays(steps, at_step);
-        }
         default:
             if (!steps_are_spent(steps[step.target], at_step - step.target))
                 co_return co_await next_rays(steps, step.target);

@@ -129,6 +129,7 @@ class Run {
     bool steps_are_spent(const Step& opening, size_t steps);
     bool turns_are_spent(const Step& opening);
     Task<size_t> next_light(const std::vector<Step>& steps, size_t opening);
+    std::unique_ptr<GatherTurns> gather_turns(const Step& step);
     Task<size_t> gather_step(const std::vector<Step>& steps, size_t at);
     Task<size_t> next_rays(const std::vector<Step>& steps, size_t opening);
     size_t turn_to_misses(const Step& step, size_t at);

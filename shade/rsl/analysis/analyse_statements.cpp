@@ -281,8 +281,7 @@ void Analyser::gather(Statement& s) {
     if (given < 5 || (given - 5) % 2 != 0)
         error(s.at, "gather takes (category, P, direction, angle, samples, \"name\", value, ...)");
     if (const Expression* const category = given > 0 ? s.expressions[0].get() : nullptr;
-        category && category->kind == Expression::Kind::Text &&
-        (category->text.starts_with("environment:") || category->text.starts_with("pointcloud:")))
+        category && category->kind == Expression::Kind::Text && category->text.starts_with("pointcloud:"))
         reporter_.warning(category->at,
                           "gather() of \"" + category->text + "\" is not supported: it traces rays");
     for (size_t i = 0; i < given; ++i) {

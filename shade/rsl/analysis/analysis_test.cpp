@@ -412,8 +412,12 @@ TEST(Analysis, FormsOfOtherRenderers) {
         in_surface("float k = shadow(\"m\", P, \"source\", P, P + 1, P + 2, P + 3, \"samples\", 4);"),
         "warning 1:92: a \"source\" of several points is not supported: shadows are those of a point\n");
     EXPECT_EQ(in_surface("float k = shadow(\"m\", P, P, P, P, \"samples\", 4) + shadow(\"source\", P);"), "");
-    EXPECT_EQ(in_surface("gather(\"environment:a.tx\", P, N, 1, 4) ;"),
-              "warning 1:74: gather() of \"environment:a.tx\" is not supported: it traces rays\n");
+    EXPECT_EQ(in_surface("gather(\"pointcloud:a.ptc\", P, N, 1, 4) ;"),
+              "warning 1:74: gather() of \"pointcloud:a.ptc\" is not supported: it traces rays\n");
+    EXPECT_EQ(
+        in_surface("color c; float w; gather(\"environment:a.tx\", 0, 0, 0, 4, \"environment:color\", c,"
+                   " \"environment:solidangle\", w) ;"),
+        "");
     EXPECT_EQ(said("plugin \"ptex\"; surface t() { Ci = 1; }\x1a"),
               "warning 1:1: plugins are not supported: functions of \"ptex\" are not there\n");
 }
