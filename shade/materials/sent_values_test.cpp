@@ -167,6 +167,30 @@ TEST(SentValues, ReachTheVerticesThatSend) {
                  [](float s, float) { return s > 0.5f ? -202.0f : 0.0f; });
 }
 
+/// Each sample is a light that is told, at the same places.
+TEST(SentValues, ReachAllSamplesOfAreaLights) {
+    SendingProbe probe;
+    probe.folder().write("area",
+                         "light area(float level = 2) { illuminate(P, N, PI / 2) Cl = level / (L . L); }");
+    const auto light = std::make_shared<LightInstance>();
+    light->shader = testing::shader("area");
+    light->shader.camera_from_shader[3][2] = 2;
+    light->shape.emplace();
+    light->shape->kind = LightShape::Kind::Rect, light->shape->samples = 5;
+    probe.scene().attributes->lights.push_back(light);
+    const std::vector<float> own = probe.shade("illuminance(P) Ci += Cl;");
+    const std::vector<float> told = probe.shade("illuminance(P, \"send:light:level\", 4 * s) Ci += Cl;");
+    const std::vector<float> after = probe.shade(
+        "illuminance(P, \"send:light:level\", 0) Ci += Cl;"
+        "illuminance(P) Ci += Cl;");
+    const ShadingGrid grid = probe.scene().grid();
+    for (size_t i = 0; i < own.size(); ++i) {
+        EXPECT_GT(own[i], 0);
+        EXPECT_NEAR(told[i], own[i] * 2 * grid.s[i], 1e-5f);
+        EXPECT_EQ(after[i], own[i]);
+    }
+}
+
 /// Lights ask for rays where they are told to, though their own values would not.
 TEST(SentValues, MayMakeLightsAskForRays) {
     const auto asks_rays = [](const std::string& body) {
