@@ -8,6 +8,7 @@
 
 #include "shade/grid_messages.h"
 #include "shade/maps/map_service.h"
+#include "shade/materials/bound_shader.h"
 #include "shade/materials/scene_spaces.h"
 #include "shade/materials/shader_library.h"
 

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <new>
 
+#include "shade/rsl/syntax/ast.h"
+
 namespace trapeze::vm {
 
 void Registers::Free::operator()(float* p) const {
