@@ -103,7 +103,8 @@ void SkyTurns::tell(const Lane& lane, const SkyParts::Part& part) const {
     };
     for (const Output& output : outputs_) {
         const Operand& out = output.operand;
-        if (output.from == From::Color) put(out, lane.lane, part.color);
+        // As shaders written for 3Delight have it, which add up colours as they come.
+        if (output.from == From::Color) put(out, lane.lane, part.color * part.solid_angle);
         if (output.from == From::Direction) put(out, lane.lane, part.direction);
         if (output.from == From::SolidAngle) put(out, lane.lane, V3f(part.solid_angle));
         if (output.from == From::RayDirection)
