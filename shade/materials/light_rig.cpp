@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <new>
 
-#include "core/motion_keys.h"
-#include "core/random.h"
-#include "core/ray_sequence.h"
 #include "core/scene/scene.h"
 #include "core/scene/shading_grid.h"
+#include "shade/materials/copy_operand.h"
 #include "shade/vm/kernels/light_kernels.h"
 
 namespace trapeze {
@@ -22,45 +19,12 @@ namespace {
 /// lanes one.
 constexpr size_t kL = 0, kDirection = 3, kCl = 6, kLit = 9, kPlanes = 10;
 
-/// Planes of samples_, by number: P, N and radiance have three planes each.
-constexpr size_t kSampleP = 0, kSampleN = 3, kRadiance = 6, kSolidAngle = 9, kArea = 10, kSamplePlanes = 11;
-
-/// Tells the seeds of area lights from those of other random numbers at a vertex.
-constexpr uint32_t kAreaLights = 0x6c616d70, kLightTimes = 0x74696d65;
-
-/// An operand whose components differ from lane to lane and lie one plane after the other.
-vm::Operand planes_of(float* first, size_t lanes) {
-    vm::Operand operand;
-    operand.data = first;
-    operand.lane_mask = ~size_t{0};
-    operand.stride = lanes;
-    return operand;
-}
-
 /// The value of an output parameter, a float, at the first vertex; `fallback` when there is none.
 float output_number(const vm::Registers& registers, std::string_view name, float fallback) {
     for (const rsl::ProgramParameter& parameter : registers.program().parameters)
         if (parameter.name == name && parameter.type == rsl::Type{rsl::Base::Float, 0})
             return registers.operand(parameter.id).data[0];
     return fallback;
-}
-
-/// Copies `width` components; a uniform target takes the first lane of a varying source.
-void copy_operand(const vm::Operand& from, int width, size_t lanes, const vm::Operand& to) {
-    const size_t plane = to.lane_mask ? lanes : kLanes;
-    for (int k = 0; k < width; ++k) {
-        const float* source = from.data + static_cast<size_t>(k) * from.stride;
-        float* target = to.data + static_cast<size_t>(k) * to.stride;
-        if (from.lane_mask && to.lane_mask)
-            std::memcpy(target, source, plane * sizeof(float));
-        else
-            std::fill_n(target, plane, source[0]);
-    }
-}
-
-/// Rays of a grid's surface have times of their own: it asks for that, or has been hit at one.
-bool has_times(const ShadingGrid& grid) {
-    return grid.hit_vertex >= 0 ? grid.hit_time > 0 : grid.primitive->attributes->rays.sample_motion;
 }
 
 /// Numbers of the registers (Machine::registers()) of lights that are given values begin here: others have
@@ -81,31 +45,7 @@ void give_lanes(const vm::SentValue& sent, size_t lanes, const uint32_t* mask, c
         }
 }
 
-/// When a sample of an area light is taken for a vertex: where rays of its surface have times of their own,
-/// at one of these; for what a ray has hit when that was; else at shutter open.
-float time_of_sample(int sample, uint32_t seed, const ShadingGrid* grid) {
-    if (!grid) return 0;
-    if (grid->hit_vertex >= 0) return grid->hit_time;
-    return grid->primitive->attributes->rays.sample_motion ? shutter_time(sample, unit_float(seed)) : 0;
-}
-
 }  // namespace
-
-int Lamp::turns() const {
-    if (!area) return 1;
-    for (const auto& sampler : samplers)
-        if (sampler) return sampler->is_point() && !moves() ? 1 : area->shape->samples;
-    return 0;
-}
-
-float Lamp::time_near(float time) const {
-    return moves() && time > 0 ? middle_of_part(part_of_shutter(time, parts()), parts()) : 0;
-}
-
-const LightSampler* Lamp::sampler_at(float time) const {
-    if (samplers.empty()) return nullptr;
-    return samplers[moves() && time > 0 ? 1 + part_of_shutter(time, parts()) : 0].get();
-}
 
 void LightRig::start(vm::Machine& machine, const std::vector<const Lamp*>& lamps,
                      const vm::Context& surroundings, size_t lanes, const Plane3& N, uint32_t seed,
@@ -115,7 +55,6 @@ void LightRig::start(vm::Machine& machine, const std::vector<const Lamp*>& lamps
     surroundings_ = &surroundings;
     lanes_ = lanes;
     N_ = N;
-    seed_ = seed;
     turns_.clear();
     int wanted = 0;
     for (const Lamp* lamp : lamps) wanted += lamp->turns();
@@ -126,23 +65,11 @@ void LightRig::start(vm::Machine& machine, const std::vector<const Lamp*>& lamps
         for (int s = 0; s < samples; ++s) turns_.push_back({i, s, samples});
     }
     if (std::ranges::any_of(lamps, [](const Lamp* lamp) { return lamp->area != nullptr; }))
-        find_surface_motion(held);
+        samples_.start(surroundings, lanes, N, seed, held);
     while (slots_.size() < turns_.size()) slots_.emplace_back();
     for (Slot& slot : slots_) {
         slot.lasts = false;
         slot.arriving.registers = nullptr;
-    }
-}
-
-/// Whether and how surfaces move while light is sampled.
-void LightRig::find_surface_motion(std::span<const M44f> held) {
-    has_times_ = false;
-    surface_turns_.clear();
-    if (!surroundings_->batch) return;
-    for (const vm::GridSpan& span : surroundings_->batch->spans) {
-        const bool has = span.grid && has_times(*span.grid);
-        surface_turns_.push_back(has ? turn_of(*span.grid, held) : MotionTurn());
-        has_times_ |= has;
     }
 }
 
@@ -202,7 +129,7 @@ void LightRig::set_variables(vm::Registers& registers, const Lamp& lamp, const v
         const vm::Operand& operand = registers.operand(id);
         const Predefined variable = value.variable;
         if (lamp.area && (variable == Predefined::P || variable == Predefined::N)) {
-            continue;                                                          // set_sample()
+            continue;                                                          // AreaSamples::tell()
         } else if (variable == Predefined::Ps || variable == Predefined::I) {  // the eye is at the origin
             copy_operand(P, 3, lanes_, operand);
         } else if (variable == Predefined::P) {
@@ -220,17 +147,12 @@ void LightRig::set_variables(vm::Registers& registers, const Lamp& lamp, const v
     }
 }
 
-/// From the eye to a point that the camera sees.
-V3f LightRig::eye_way(const V3f& point) const {
-    return surroundings_->perspective ? point : V3f(0, 0, point.z);
-}
-
 /// Of the rays that have hit the points which are lit: where they began, or the `way` from there to P. The
 /// camera's begin in the eye, or on the eye's plane.
 void LightRig::set_ray(const vm::Operand& out, bool way, const vm::Operand& P) const {
     const auto put = [&](size_t lane, const ShadingGrid* grid, size_t vertex) {
         const V3f here = vm::Run::triple_at(P, lane);
-        V3f origin = here - eye_way(here);
+        V3f origin = here - eye_way(*surroundings_, here);
         if (grid && vertex < grid->I.size()) origin = grid->P.front().at(vertex) - grid->I.at(vertex);
         for (int k = 0; k < 3; ++k)
             out.data[static_cast<size_t>(k) * out.stride + lane] = way ? here[k] - origin[k] : origin[k];
@@ -239,105 +161,6 @@ void LightRig::set_ray(const vm::Operand& out, bool way, const vm::Operand& P) c
     if (!surroundings_->batch) return;
     for (const vm::GridSpan& span : surroundings_->batch->spans)
         for (size_t i = 0; span.grid && i < span.grid->I.size(); ++i) put(span.first + i, span.grid, i);
-}
-
-/// Chooses a place of the light's shape for each vertex. Random numbers follow from the vertex and the lamp
-/// [decision 0019]: a vertex' places are well apart, and those of vertices have nothing in common. Returns
-/// when each is taken, where the light moves or rays have times of their own; else nothing.
-std::vector<float> LightRig::sample(const Turn& turn, const Lamp& lamp, const vm::Operand& P) {
-    samples_.assign(kSamplePlanes * lanes_, 0);
-    const auto put = [&](size_t plane, size_t lane, const V3f& v) {
-        for (int k = 0; k < 3; ++k) samples_[(plane + static_cast<size_t>(k)) * lanes_ + lane] = v[k];
-    };
-    const bool has_normals = N_.size() == lanes_;
-    std::vector<float> times(lamp.moves() || has_times_ ? lanes_ : 0);
-    turned_.assign(lanes_, 0);
-    // A lane, and the grid's vertex that it is.
-    struct Lit {
-        size_t lane;
-        uint32_t seed;
-        const ShadingGrid* grid = nullptr;
-        size_t vertex = 0;
-        const MotionTurn* surface = nullptr;
-    };
-    const auto take = [&](const Lit& lit) {
-        const size_t lane = lit.lane;
-        float time = 0;
-        if (!times.empty()) {
-            time = time_of_sample(turn.sample, hash(lit.seed, turn.lamp, kLightTimes), lit.grid);
-            times[lane] = time = lamp.moves() ? lamp.time_near(time) : time;
-        }
-        const LightSampler* const sampler = lamp.sampler_at(time);
-        if (!sampler) return;
-        const V3f point(vm::Run::at(P, 0, lane), vm::Run::at(P, 1, lane), vm::Run::at(P, 2, lane));
-        V3f normal = has_normals ? V3f(N_[0][lane], N_[1][lane], N_[2][lane]) : V3f(0);
-        const bool is_hit = lit.grid && lit.vertex < lit.grid->I.size();
-        if (normal.dot(is_hit ? lit.grid->I.at(lit.vertex) : eye_way(point)) > 0) normal = -normal;
-        // A single direction lights what turns as it lies at shutter open, as lights without a shape do.
-        if (lit.surface && !sampler->is_point()) {
-            turned_[lane] = time;
-            normal = lit.surface->forward(normal, time);
-        }
-        const RaySequence sequence(hash(lit.seed, turn.lamp, kAreaLights), turn.samples);
-        const LightSample made = sampler->sample(point, normal, sequence[turn.sample]);
-        put(kSampleP, lane, made.P), put(kSampleN, lane, made.N), put(kRadiance, lane, made.radiance);
-        samples_[kSolidAngle * lanes_ + lane] = std::isfinite(made.solid_angle) ? made.solid_angle : 0;
-        samples_[kArea * lanes_ + lane] = sampler->area();
-    };
-    if (!surroundings_->batch)
-        for (size_t lane = 0; lane < lanes_; ++lane) take({lane, hash(static_cast<uint32_t>(lane), seed_)});
-    else
-        for (size_t number = 0; number < surroundings_->batch->spans.size(); ++number) {
-            const vm::GridSpan& span = surroundings_->batch->spans[number];
-            const uint32_t grid =
-                hash(static_cast<uint32_t>(span.seed), static_cast<uint32_t>(span.seed >> 32), seed_);
-            for (size_t i = 0; i < static_cast<size_t>(span.shape.vertex_count()); ++i)
-                take({span.first + i, hash(grid, static_cast<uint32_t>(i)), span.grid, i,
-                      &surface_turns_[number]});
-        }
-    return times;
-}
-
-/// Turns the ways to samples back to how surfaces lie as they are shaded; `L`: 3 planes.
-void LightRig::turn_back(float* L) const {
-    if (!has_times_) return;
-    for (size_t number = 0; number < surface_turns_.size(); ++number) {
-        const MotionTurn& surface = surface_turns_[number];
-        if (surface.is_none()) continue;
-        const vm::GridSpan& span = surroundings_->batch->spans[number];
-        for (size_t i = 0; i < static_cast<size_t>(span.shape.vertex_count()); ++i) {
-            const size_t lane = span.first + i;
-            const V3f way(L[lane], L[lanes_ + lane], L[2 * lanes_ + lane]);
-            const V3f back = surface.back(way, turned_[lane]);
-            for (int k = 0; k < 3; ++k) L[static_cast<size_t>(k) * lanes_ + lane] = back[k];
-        }
-    }
-}
-
-/// P and N are the sample's; "__solidangle", "__radiance" and "__area" tell the shader what it stands for.
-void LightRig::set_sample(vm::Registers& registers, const Lamp& lamp) const {
-    const auto planes = [&](size_t plane) {
-        return planes_of(const_cast<float*>(samples_.data()) + plane * lanes_, lanes_);  // an input
-    };
-    const rsl::Program& program = registers.program();
-    for (const auto& [name, plane] : {std::pair("P", kSampleP), {"N", kSampleN}})
-        if (const rsl::RegisterId* id = program.find_global(name))
-            copy_operand(planes(plane), 3, lanes_, registers.operand(*id));
-    for (const rsl::ProgramParameter& parameter : program.parameters) {
-        const bool is_number = parameter.type == rsl::Type{rsl::Base::Float, 0};
-        if (parameter.name == "__solidangle" && is_number)
-            copy_operand(planes(kSolidAngle), 1, lanes_, registers.operand(parameter.id));
-        if (parameter.name == "__radiance" && parameter.type == rsl::Type{rsl::Base::Color, 0})
-            copy_operand(planes(kRadiance), 3, lanes_, registers.operand(parameter.id));
-        if (parameter.name != "__area" || !is_number) continue;
-        if (registers.operand(parameter.id).lane_mask) {
-            copy_operand(planes(kArea), 1, lanes_, registers.operand(parameter.id));
-        } else {  // one for all times: that of shutter open
-            const LightSampler* const at_open = lamp.sampler_at(0);
-            const float area = at_open ? at_open->area() : 0;
-            registers.set_uniform(parameter.id, &area);
-        }
-    }
 }
 
 Task<> LightRig::run(size_t light, Slot& slot, const vm::LightRequest& request,
@@ -353,8 +176,8 @@ Task<> LightRig::run(size_t light, Slot& slot, const vm::LightRequest& request,
     set_variables(registers, lamp, P);
     std::vector<float> times;
     if (lamp.area) {
-        times = sample(turn, lamp, P);
-        set_sample(registers, lamp);
+        times = samples_.take(turn, lamp, P);
+        samples_.tell(lamp, registers);
     }
     give(registers, taken, request.lanes);
     std::vector<size_t> given;
@@ -380,7 +203,7 @@ Task<> LightRig::run(size_t light, Slot& slot, const vm::LightRequest& request,
     context.ray_times = times;
     co_await shader.set_run_defaults(*machine_, registers, context, {}, given);
     co_await machine_->run(registers, context);
-    if (lamp.area && shader.program().directional) turn_back(output.L);
+    if (lamp.area && shader.program().directional) samples_.turn_back(output.L);
     tell(turn, output, registers, slot);
 }
 
