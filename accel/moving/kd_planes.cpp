@@ -67,42 +67,81 @@ struct AxisPlanes {
     }
 };
 
-/// A micropolygon's whole box at the times that matter for a reference to it.
-class BoxOverTime {
+/// Where the sides of a micropolygon's whole box are in the span of a reference to it: linear between knots,
+/// which are the ends of the span and the keys between them.
+class SidesOverTime {
   public:
-    BoxOverTime(std::span<const Box3f> keys, float pose_time, const ShutterSpan& when)
-        : keys_(keys), when_(when), pose_(at(pose_time)), from_(at(when.from)), to_(at(when.to)) {}
-
-    /// Where one side of the reference's box is along an axis in its span: its least and largest values. At
-    /// the pose time the side is where the pose in the cell has it, and at other times moved by as much as
-    /// the whole box. That is a guess, which decides costs alone.
-    struct Range {
-        float least, most, shift;
-    };
-    Range range(V3f Box3f::*side, int axis, float in_pose) const {
-        const auto value = [side, axis](const Box3f& box) { return (box.*side)[axis]; };
-        float least = std::min(value(from_), value(to_)), most = std::max(value(from_), value(to_));
-        const auto segments = static_cast<float>(keys_.size() - 1);
-        for (size_t key = 1; key + 1 < keys_.size(); ++key) {
+    SidesOverTime(std::span<const Box3f> keys, const ShutterSpan& when) {
+        add(keys, when.from);
+        if (keys.size() == 1 || !(when.to > when.from)) return;
+        const auto segments = static_cast<float>(keys.size() - 1);
+        for (size_t key = 1; key + 1 < keys.size(); ++key) {
             const float time = static_cast<float>(key) / segments;
-            if (time <= when_.from || time >= when_.to) continue;
-            least = std::min(least, value(keys_[key])), most = std::max(most, value(keys_[key]));
+            if (time > when.from && time < when.to) add_knot(keys[key], time);
         }
-        const float shift = in_pose - value(pose_);
-        return {least + shift, most + shift, shift};
+        add(keys, when.to);
+    }
+
+    /// Sides are numbered: the lower ones of three axes, then the upper ones.
+    struct Range {
+        float least, most;
+    };
+    Range range(size_t side) const {
+        const float* const at = values_[side];
+        Range range{at[0], at[0]};
+        for (size_t n = 1; n < count_; ++n)
+            range = {std::min(range.least, at[n]), std::max(range.most, at[n])};
+        return range;
+    }
+
+    /// Adds to parts[p] for planes `first` to `end` - 1 how long a side, moved by `shift`, is at or below
+    /// them (`above`: at or above), from the first such time to the last.
+    template <class Planes>
+    void add_times(size_t side, float shift, bool above, const Planes& planes, size_t first, size_t end,
+                   double* parts) const {
+        if (first >= end) return;
+        const float* const values = values_[side];
+        if (count_ == 2) {
+            const float length = times_[1] - times_[0], begin = values[0] + shift,
+                        slope = length / (values[1] - values[0]);
+            // From the beginning, as one that rises is below a plane, or to the end.
+            const bool from_begin = (values[1] > values[0]) != above;
+            for (size_t p = first; p < end; ++p) {
+                const float crossing = std::clamp((planes.at(p) - begin) * slope, 0.0f, length);
+                parts[p] += static_cast<double>(from_begin ? crossing : length - crossing);
+            }
+            return;
+        }
+        const float sign = above ? -1.0f : 1.0f;
+        for (size_t p = first; p < end; ++p) {
+            const float at = sign * (planes.at(p) - shift);
+            float from = 2, to = -1;
+            for (size_t n = 0; n + 1 < count_; ++n) {
+                const float a = sign * values[n], b = sign * values[n + 1];
+                if (a > at && b > at) continue;
+                const float crossing = times_[n] + (at - a) / (b - a) * (times_[n + 1] - times_[n]);
+                from = std::min(from, a > at ? crossing : times_[n]);
+                to = b > at ? crossing : times_[n + 1];
+            }
+            parts[p] += static_cast<double>(std::max(0.0f, to - from));
+        }
     }
 
   private:
-    Box3f at(float time) const {
-        if (keys_.size() == 1) return keys_[0];
-        const MotionSegment s = segment_at(time, static_cast<int>(keys_.size()));
-        const Box3f &a = keys_[static_cast<size_t>(s.index)], &b = keys_[static_cast<size_t>(s.index) + 1];
-        return {a.min + (b.min - a.min) * s.local, a.max + (b.max - a.max) * s.local};
+    void add(std::span<const Box3f> keys, float time) {
+        if (keys.size() == 1) return add_knot(keys[0], time);
+        const MotionSegment s = segment_at(time, static_cast<int>(keys.size()));
+        const Box3f &a = keys[static_cast<size_t>(s.index)], &b = keys[static_cast<size_t>(s.index) + 1];
+        add_knot({a.min + (b.min - a.min) * s.local, a.max + (b.max - a.max) * s.local}, time);
+    }
+    void add_knot(const Box3f& box, float time) {
+        times_[count_] = time;
+        for (int k = 0; k < 3; ++k) values_[k][count_] = box.min[k], values_[k + 3][count_] = box.max[k];
+        ++count_;
     }
 
-    const std::span<const Box3f> keys_;
-    const ShutterSpan when_;
-    const Box3f pose_, from_, to_;
+    size_t count_ = 0;
+    float times_[kMaxKeyCount + 1], values_[6][kMaxKeyCount + 1];  // those of `count_` knots
 };
 
 /// Sums of a node's references over the planes of all axes.
@@ -112,29 +151,35 @@ struct PlaneSums {
     /// What references reach beyond their boxes: a plane that close by has them on both sides.
     float margin = 0;
 
-    void add(const KdReference& reference, std::span<const Box3f> keys, float pose_time,
+    /// `pose`: the micropolygon's whole box at the pose time. There a side of the reference's box is where
+    /// the pose in the cell has it, and at other times moved by as much as the whole box: a guess, which
+    /// decides costs alone.
+    void add(const KdReference& reference, const SidesOverTime& sides, const Box3f& pose,
              KdTreeOptions::Weight weight) {
         const bool by_time = weight == KdTreeOptions::Weight::Time;
-        const ShutterSpan& when = reference.when;
-        const double whole = by_time ? static_cast<double>(when.length()) : 1;
-        const auto counts = [by_time](const ShutterSpan& there) {
-            return by_time ? static_cast<double>(there.length()) : there.is_empty() ? 0. : 1.;
-        };
-        const BoxOverTime box(keys, pose_time, when);
+        const double whole = by_time ? static_cast<double>(reference.when.length()) : 1;
         for (int k = 0; k < 3; ++k) {
             AxisPlanes<kMost>& planes = axis[static_cast<size_t>(k)];
             if (planes.count == 0) continue;
             // Planes that a side moves across are looked at one by one. At those beyond it counts as a whole:
             // one entry, which consider_planes_of() carries on to the planes that follow.
-            const auto low = box.range(&Box3f::min, k, reference.box.min[k] - margin);
-            const size_t whole_from = planes.first_above(low.most);
-            for (size_t p = planes.first_above(low.least); p < whole_from; ++p)
-                planes.low_part[p] += counts(when_at_or_below(keys, k, planes.at(p) - low.shift, when));
+            const auto part = [&](size_t side, float shift, bool above, size_t first, size_t end,
+                                  double* parts) {
+                if (by_time) return sides.add_times(side, shift, above, planes, first, end, parts);
+                for (size_t p = first; p < end; ++p) parts[p] += 1;
+            };
+            const auto axis_side = static_cast<size_t>(k);
+            const float down = reference.box.min[k] - margin - pose.min[k];
+            const auto low = sides.range(axis_side);
+            const size_t whole_from = planes.first_above(low.most + down);
+            part(axis_side, down, false, planes.first_above(low.least + down), whole_from,
+                 planes.low_part.data());
             planes.low_from[whole_from] += whole;
-            const auto high = box.range(&Box3f::max, k, reference.box.max[k] + margin);
-            const size_t whole_to = planes.end_below(high.least), any_to = planes.end_below(high.most);
-            for (size_t p = whole_to; p < any_to; ++p)
-                planes.high_part[p] += counts(when_at_or_above(keys, k, planes.at(p) - high.shift, when));
+            const float up = reference.box.max[k] + margin - pose.max[k];
+            const auto high = sides.range(axis_side + 3);
+            const size_t whole_to = planes.end_below(high.least + up);
+            part(axis_side + 3, up, true, whole_to, planes.end_below(high.most + up),
+                 planes.high_part.data());
             planes.high_to[whole_to] += whole;
         }
     }
@@ -256,7 +301,9 @@ KdPlane KdPlanes::best_plane(std::span<const KdReference> references, const Box3
     add_in_parts(
         references,
         [&](const KdReference& r, PlaneSums<kMost>& sum) {
-            if (!r.guest || guests_too) sum.add(r, boxes_.keys(r.item), pose_time(r.when), options_.weight);
+            if (!r.guest || guests_too)
+                sum.add(r, SidesOverTime(boxes_.keys(r.item), r.when), boxes_.at(r.item, pose_time(r.when)),
+                        options_.weight);
         },
         sums);
     KdPlane best;
