@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/scene/poses.h"
-#include "shade/maps/sky_picture.h"
+#include "shade/maps/read_sky_picture.h"
 
 namespace trapeze {
 namespace {
@@ -41,7 +41,7 @@ std::vector<std::unique_ptr<LightSampler>> samplers_of(const LightInstance& ligh
         SkyPicture sky;
         if (!shape.map.empty())
             sky = read_sky_picture(textures, shape.map, light.shader.location, kMostColumns);
-        return make_dome_samplers({sky.width, sky.height, std::move(sky.colors)}, spaces);
+        return make_dome_samplers(std::move(sky), spaces);
     }
     std::vector<std::unique_ptr<LightSampler>> samplers;
     for (const M44f& space : spaces) {

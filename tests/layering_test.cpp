@@ -102,7 +102,7 @@ const std::map<std::string, Names> kWings = {
       "shade/vm"}},
     {"shade/clouds", {"shade/maps", "shade/rays", "shade/vm"}},
     {"shade/code", {"shade/operations", "shade/rsl/analysis", "shade/rsl/syntax", "shade/vm/kernels"}},
-    {"shade/maps", {"shade/operations", "shade/planes", "shade/vm", "shade/vm/kernels"}},
+    {"shade/maps", {"shade/lights", "shade/operations", "shade/planes", "shade/vm", "shade/vm/kernels"}},
     {"shade/maps/openimageio", {"shade/maps"}},
     {"shade/materials",
      {"shade/code", "shade/lights", "shade/operations", "shade/rsl", "shade/rsl/analysis", "shade/rsl/syntax",

@@ -71,15 +71,16 @@ struct AxisPlanes {
 /// which are the ends of the span and the keys between them.
 class SidesOverTime {
   public:
-    SidesOverTime(std::span<const Box3f> keys, const ShutterSpan& when) {
-        add(keys, when.from);
+    SidesOverTime(const SweptBoxes& boxes, size_t item, const ShutterSpan& when) {
+        const std::span<const Box3f> keys = boxes.keys(item);
+        add_knot(boxes.at(item, when.from), when.from);
         if (keys.size() == 1 || !(when.to > when.from)) return;
         const auto segments = static_cast<float>(keys.size() - 1);
         for (size_t key = 1; key + 1 < keys.size(); ++key) {
             const float time = static_cast<float>(key) / segments;
             if (time > when.from && time < when.to) add_knot(keys[key], time);
         }
-        add(keys, when.to);
+        add_knot(boxes.at(item, when.to), when.to);
     }
 
     /// Sides are numbered: the lower ones of three axes, then the upper ones.
@@ -128,12 +129,6 @@ class SidesOverTime {
     }
 
   private:
-    void add(std::span<const Box3f> keys, float time) {
-        if (keys.size() == 1) return add_knot(keys[0], time);
-        const MotionSegment s = segment_at(time, static_cast<int>(keys.size()));
-        const Box3f &a = keys[static_cast<size_t>(s.index)], &b = keys[static_cast<size_t>(s.index) + 1];
-        add_knot({a.min + (b.min - a.min) * s.local, a.max + (b.max - a.max) * s.local}, time);
-    }
     void add_knot(const Box3f& box, float time) {
         times_[count_] = time;
         for (int k = 0; k < 3; ++k) values_[k][count_] = box.min[k], values_[k + 3][count_] = box.max[k];
@@ -302,7 +297,7 @@ KdPlane KdPlanes::best_plane(std::span<const KdReference> references, const Box3
         references,
         [&](const KdReference& r, PlaneSums<kMost>& sum) {
             if (!r.guest || guests_too)
-                sum.add(r, SidesOverTime(boxes_.keys(r.item), r.when), boxes_.at(r.item, pose_time(r.when)),
+                sum.add(r, SidesOverTime(boxes_, r.item, r.when), boxes_.at(r.item, pose_time(r.when)),
                         options_.weight);
         },
         sums);

@@ -8,6 +8,7 @@
 
 #include "core/math.h"
 #include "core/scene/light_shape.h"
+#include "shade/lights/sky_picture.h"
 
 namespace trapeze {
 
@@ -35,13 +36,6 @@ class LightSampler {
     virtual bool is_point() const { return false; }
 };
 
-/// The picture of a dome: colours by longitude (from 0 at the left) and latitude (from the zenith at the top
-/// down), row by row, all finite and not below zero.
-struct DomeMap {
-    int width = 0, height = 0;
-    std::vector<V3f> colors;
-};
-
 // Each is null for a shape that has no area, or is not finite.
 
 /// Kinds Rect and Disk.
@@ -52,7 +46,7 @@ std::unique_ptr<LightSampler> make_mesh_sampler(const LightMesh& mesh, bool two_
 std::unique_ptr<LightSampler> make_distant_sampler(float angle, const M44f& camera_from_light);
 /// Of a dome in each of some spaces, one for each. Without colours it is white. Null, too, where all of it is
 /// black.
-std::vector<std::unique_ptr<LightSampler>> make_dome_samplers(DomeMap map,
+std::vector<std::unique_ptr<LightSampler>> make_dome_samplers(SkyPicture map,
                                                               std::span<const M44f> camera_from_light);
 
 }  // namespace trapeze

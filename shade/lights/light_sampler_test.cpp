@@ -248,7 +248,7 @@ TEST(LightSamples, OfDisksInTheSkyLightWhatIsTurnedToThem) {
     }
 }
 
-std::unique_ptr<LightSampler> dome_of(const DomeMap& map, const M44f& space) {
+std::unique_ptr<LightSampler> dome_of(const SkyPicture& map, const M44f& space) {
     return std::move(make_dome_samplers(map, std::span(&space, 1)).front());
 }
 
@@ -262,7 +262,7 @@ TEST(LightSamples, OfAWhiteDomeLightAllFacesAlike) {
 
 /// A sky with a sun a thousand times as bright in one of its pixels, next to sums over all pixels.
 TEST(LightSamples, OfAMapGiveItsQuadrature) {
-    DomeMap map;
+    SkyPicture map;
     map.width = 32, map.height = 16;
     for (int i = 0; i < 32 * 16; ++i) {
         const float sky = 0.2f + 0.8f * unit_float(hash(static_cast<uint32_t>(i)));
@@ -330,7 +330,7 @@ TEST(LightSamples, ShapesOfNoAreaMakeNone) {
     M44f no_axis;
     no_axis[2][2] = 0;
     EXPECT_EQ(make_distant_sampler(0.1f, no_axis), nullptr);
-    DomeMap black;
+    SkyPicture black;
     black.width = 2, black.height = 1;
     black.colors.assign(2, V3f(0));
     EXPECT_EQ(dome_of(black, M44f()), nullptr);

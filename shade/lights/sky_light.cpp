@@ -63,16 +63,11 @@ class WhiteDome final : public LightSampler {
     }
 };
 
-double luminance(const V3f& c) {
-    return 0.2126 * static_cast<double>(c.x) + 0.7152 * static_cast<double>(c.y) +
-           0.0722 * static_cast<double>(c.z);
-}
-
 /// The cells of a dome's picture, which are chosen by what they send; within a cell all solid angles are
 /// alike.
 class DomeCells {
   public:
-    explicit DomeCells(DomeMap map) : map_(std::move(map)) {
+    explicit DomeCells(SkyPicture map) : map_(std::move(map)) {
         double sum = 0;
         for (int row = 0; row < map_.height; ++row) {
             double of_row = 0;
@@ -126,7 +121,7 @@ class DomeCells {
                 std::clamp((at - before) / (*found - before), 0.0, 1.0)};
     }
 
-    DomeMap map_;
+    SkyPicture map_;
     std::vector<double> sums_;      ///< up to each row
     std::vector<double> row_sums_;  ///< within its row, up to each cell
 };
@@ -160,7 +155,7 @@ std::unique_ptr<LightSampler> make_distant_sampler(float angle, const M44f& came
     return std::make_unique<DistantLight>(angle, along / length);
 }
 
-std::vector<std::unique_ptr<LightSampler>> make_dome_samplers(DomeMap map,
+std::vector<std::unique_ptr<LightSampler>> make_dome_samplers(SkyPicture map,
                                                               std::span<const M44f> camera_from_light) {
     std::vector<std::unique_ptr<LightSampler>> samplers(camera_from_light.size());
     if (map.colors.empty()) {

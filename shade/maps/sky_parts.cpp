@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/portable_math.h"
+#include "shade/maps/read_sky_picture.h"
 #include "shade/maps/textures_impl.h"
 
 namespace trapeze {
@@ -19,11 +20,6 @@ constexpr size_t kMostSkies = 16;
 constexpr double kLeastLight = 1e-12;
 /// Of a part's side: no half is narrower.
 constexpr double kLeastSide = 1e-6;
-
-double luminance(const V3f& c) {
-    return 0.2126 * static_cast<double>(c.x) + 0.7152 * static_cast<double>(c.y) +
-           0.0722 * static_cast<double>(c.z);
-}
 
 /// Where a function that grows from `low` to `high`, in a straight line between whole numbers, has a value.
 template <class Function>

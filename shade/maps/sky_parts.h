@@ -6,8 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "core/math.h"
-#include "shade/maps/sky_picture.h"
+#include "shade/lights/sky_picture.h"
 
 namespace trapeze {
 

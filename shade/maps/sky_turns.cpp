@@ -61,8 +61,7 @@ SkyTurns::SkyTurns(std::shared_ptr<const SkyParts> parts, Run& run, const Step& 
             add_lane(lane, static_cast<uint32_t>(lane), samples);
     else
         for (const vm::GridSpan& span : run.context().batch->spans) {
-            const uint32_t grid = hash(static_cast<uint32_t>(span.seed),
-                                       static_cast<uint32_t>(span.seed >> 32), hash(seed, step.first));
+            const uint32_t grid = span.word(hash(seed, step.first));
             // All of what a ray has hit is told the same.
             for (size_t i = 0; i < static_cast<size_t>(span.shape.vertex_count()); ++i)
                 add_lane(span.first + i,

@@ -95,8 +95,7 @@ std::vector<float> AreaSamples::take(const Turn& turn, const Lamp& lamp, const v
     else
         for (size_t number = 0; number < surroundings_->batch->spans.size(); ++number) {
             const vm::GridSpan& span = surroundings_->batch->spans[number];
-            const uint32_t grid =
-                hash(static_cast<uint32_t>(span.seed), static_cast<uint32_t>(span.seed >> 32), seed_);
+            const uint32_t grid = span.word(seed_);
             for (size_t i = 0; i < static_cast<size_t>(span.shape.vertex_count()); ++i)
                 choose({span.first + i, hash(grid, static_cast<uint32_t>(i)), span.grid, i,
                         &surface_turns_[number]});

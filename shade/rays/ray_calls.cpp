@@ -141,8 +141,7 @@ std::vector<RayLane> RayCalls::lanes_of(Run& run, const Step& step, bool uniform
     std::vector<RayLane> lanes;
     for_each_asking_lane(
         run, uniform, [&](const vm::GridSpan& span, size_t vertex, const AskingLane& asking) {
-            const uint32_t grid = hash(static_cast<uint32_t>(span.seed),
-                                       static_cast<uint32_t>(span.seed >> 32), asker_.service().seed);
+            const uint32_t grid = span.word(asker_.service().seed);
             const size_t lane = asking.lane;
             lanes.push_back({lane, hash(grid, static_cast<uint32_t>(vertex), step.first, calls[lane]++),
                              asking.first, asking.count, span.grid, span.first, bend_of(span.grid)});

@@ -15,8 +15,7 @@ void random(Run& run, const Step& step, std::span<const Operand> operands) {
     if (const Batch* batch = run.context().batch)
         for (const GridSpan& span : batch->spans)
             for (size_t i = 0; i < static_cast<size_t>(span.shape.vertex_count()); ++i) {
-                const uint32_t word = hash(static_cast<uint32_t>(span.seed),
-                                           static_cast<uint32_t>(span.seed >> 32), static_cast<uint32_t>(i));
+                const uint32_t word = span.word(static_cast<uint32_t>(i));
                 std::memcpy(seeds + span.first + i, &word, sizeof word);
             }
     Operand lanes;

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "core/grid.h"
 #include "core/math.h"
+#include "core/random.h"
 #include "core/scene/vertex_set.h"
 
 namespace trapeze {
@@ -27,6 +29,10 @@ struct GridSpan {
     const ShadingGrid* grid = nullptr;  ///< null where it is a piece, or there is none
 
     bool wants(size_t vertex) const { return !wanted || wanted->test(vertex); }
+    /// A random word of the grid for each number [decision 0019].
+    uint32_t word(uint32_t number) const {
+        return hash(static_cast<uint32_t>(seed), static_cast<uint32_t>(seed >> 32), number);
+    }
 };
 
 }  // namespace trapeze::vm

@@ -1,4 +1,4 @@
-#include "shade/maps/sky_picture.h"
+#include "shade/maps/read_sky_picture.h"
 
 #include <algorithm>
 #include <cmath>
