@@ -58,6 +58,12 @@ std::vector<MovingStudyScene> moving_scenes(const StudyBench& bench) {
     return scenes;
 }
 
+std::vector<std::string> labels_of(const std::vector<MovingStudyScene>& scenes) {
+    std::vector<std::string> labels;
+    for (const MovingStudyScene& scene : scenes) labels.push_back(scene.scene.label);
+    return labels;
+}
+
 /// Whose costs are set beside a paper's: one ray a sample, or an occlusion ray from where it ends, too.
 enum class RaysThatCount { Camera, CameraAndOcclusion };
 
@@ -268,13 +274,15 @@ void add_moving_notes(const StudyBench& bench, StudyResult& result, RaysThatCoun
         "All but the wide tree take rays one by one; the scenes are made, in the kind of the papers'.");
 }
 
-/// Measures the rows on all scenes, and adds what is told of any structure, here that of one row.
+/// Measures the rows on the scenes that are taken, and adds what is told of any structure, here that of one
+/// row.
 std::vector<MovingRun> run_all(StudyBench& bench, StudyResult& result, const TreeRows& rows, size_t row,
                                const paper::TreeRatios* of_paper, RaysThatCount rays) {
     add_moving_notes(bench, result, rays);
     std::vector<MovingRun> runs;
     for (const MovingStudyScene& scene : moving_scenes(bench))
-        runs.push_back(run_moving_scene(bench, result, scene, rows, rays));
+        if (bench.takes(scene.scene.label))
+            runs.push_back(run_moving_scene(bench, result, scene, rows, rays));
     for (const MovingRun& run : runs) result.tables.push_back(tree_table(run, rows));
     result.tables.push_back(phase_table(runs, rows));
     add_ratios(result, runs, row, rows[row].name, of_paper);
@@ -289,6 +297,9 @@ void add_checks(StudyResult& result, std::vector<StudyCheck> checks) {
 }  // namespace
 
 void study_msbvh(StudyBench& bench, StudyResult& result) {
+    std::vector<std::string> labels = labels_of(moving_scenes(bench));
+    labels.emplace_back(kHairOverFrames);
+    bench.offer_scenes(labels);
     const TreeRows rows = {kBaseline,
                            kSplits,
                            {"MSBVH, equation 1", "raytrace:tree=msbvh,clip=box,bundle=off"},
@@ -300,10 +311,11 @@ void study_msbvh(StudyBench& bench, StudyResult& result) {
         if (run.scene.of_paper != paper::kMovingScenes)
             add_checks(result, checks_of_spatial_splits(run.label(), ratios_of(run, 1),
                                                         paper::kMsbvh[run.scene.of_paper]));
-    add_refitting(bench, result);
+    if (bench.takes(kHairOverFrames)) add_refitting(bench, result);
 }
 
 void study_mbkd(StudyBench& bench, StudyResult& result) {
+    bench.offer_scenes(labels_of(moving_scenes(bench)));
     enum { kMsbvhRow = 1, kMbkdRow, kOpening, kClosing, kUnweighted };
     const TreeRows rows = {kBaseline,
                            kSplits,

@@ -84,7 +84,7 @@ void add_refitting(StudyBench& bench, StudyResult& result) {
     if (!same_objects)
         result.notes.push_back(
             "Not all frames of the hairball have the same objects: trees are built there.");
-    const std::string label = "Hairball over frames";
+    const std::string label = kHairOverFrames;
     LinePlot plot{
         label + ": cost by the surface area heuristic", "frame", "expected tests and steps of a line", {}};
     StudyTable table{

@@ -6,6 +6,9 @@
 
 namespace trapeze {
 
+/// What the study's scenes are offered as.
+inline constexpr const char* kHairOverFrames = "Hairball over frames";
+
 /// Follows turning and flying hair with trees that are refitted, beside those that are built anew: what they
 /// cost by the surface area heuristic, as a plot and a check.
 void add_refitting(StudyBench& bench, StudyResult& result);

@@ -12,7 +12,8 @@
 namespace trapeze {
 namespace {
 
-constexpr int kFallingFrames = 11;      ///< as the report has of its falling triangles
+constexpr int kFallingFrames = 11;  ///< as the report has of its falling triangles
+constexpr const char* kFallingTriangles = "Falling triangles";
 constexpr double kBetweenFrames = .24;  ///< seconds
 
 std::vector<SharedFrame> falling_frames(StudyBench& bench) {
@@ -130,7 +131,7 @@ void study_sequence(StudyBench& bench, const Sequence& sequence, const paper::Se
 void study_falling(StudyBench& bench, StudyResult& result) {
     const std::vector<SharedFrame> shared = falling_frames(bench);
     const RenderContext context = shared[0].context_at({1, 1});
-    Sequence sequence{"Falling triangles", &context, shared[0].pixels, {}};
+    Sequence sequence{kFallingTriangles, &context, shared[0].pixels, {}};
     for (const SharedFrame& frame : shared) sequence.frames.push_back(&frame.grids);
     const bool same_objects = std::ranges::all_of(sequence.frames, [&](const Grids* grids) {
         return grids->micropolygon_count() == sequence.frames[0]->micropolygon_count();
@@ -148,6 +149,7 @@ void study_bart(StudyBench& bench, StudyResult& result) {
         return;
     }
     for (const BartScene& scene : kBartScenes) {
+        if (!bench.takes(scene.label)) continue;
         const auto frames = bart_frames(bench, scene, result);
         if (frames) study_sequence(bench, frames->sequence, scene.report, result);
     }
@@ -159,7 +161,10 @@ void study_dynamic(StudyBench& bench, StudyResult& result) {
     result.notes.push_back(
         "One camera ray a pixel, and none of second order; the report has rays of depth 2. Its trees have one "
         "thread, ours two or more: the first two are updated by one, too.");
-    study_falling(bench, result);
+    std::vector<std::string> labels{kFallingTriangles};
+    for (const BartScene& scene : kBartScenes) labels.emplace_back(scene.label);
+    bench.offer_scenes(labels);
+    if (bench.takes(kFallingTriangles)) study_falling(bench, result);
     study_bart(bench, result);
 }
 

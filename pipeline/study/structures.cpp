@@ -37,6 +37,7 @@ constexpr StructureScene kStructureScenes[] = {
 };
 /// Of the halberd, times its own micropolygons: from some tenth of a million to tens of millions at full
 /// size.
+constexpr const char* kSizesLabel = "Sizes of the halberd";
 constexpr double kSizes[] = {.1, .5, 2, 8, 20};
 
 /// The trees that the program offers, each as it is by default.
@@ -153,8 +154,13 @@ void study_structures(StudyBench& bench, StudyResult& result) {
         "Each tree as it is by default. wide takes bundles of rays in vectors; paper, interpolated, msbvh, lbvh "
         "and refit leave out for each tile what its beam does not meet, then take rays one by one; mbkd, gs, "
         "dynamic and loose take rays one by one.");
+    std::vector<std::string> labels;
+    for (const StructureScene& scene : kStructureScenes) labels.emplace_back(scene.label);
+    labels.emplace_back(kSizesLabel);
+    bench.offer_scenes(labels);
     std::vector<StructureRun> runs;
     for (const StructureScene& scene : kStructureScenes) {
+        if (!bench.takes(scene.label)) continue;
         std::vector<std::string> trees = all_trees();
         for (const Blur& blur : kBlurs) {
             runs.push_back(run_structures(bench, scene, blur, 1, trees));
@@ -162,8 +168,10 @@ void study_structures(StudyBench& bench, StudyResult& result) {
             leave_slow_ones(bench, runs.back(), trees, result);
         }
     }
-    for (const Blur& blur : kBlurs) result.checks.push_back(check_of_own_tree(runs, blur));
-    for (StructureRun& run : run_sizes(bench, result)) runs.push_back(std::move(run));
+    if (!runs.empty())
+        for (const Blur& blur : kBlurs) result.checks.push_back(check_of_own_tree(runs, blur));
+    if (bench.takes(kSizesLabel))
+        for (StructureRun& run : run_sizes(bench, result)) runs.push_back(std::move(run));
     for (std::string& words : words_on_structures(runs)) result.notes.push_back(std::move(words));
 }
 

@@ -1,9 +1,12 @@
 #include "pipeline/study/study_bench.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
+#include <string_view>
 
 #include "pipeline/compare/blur.h"
 #include "pipeline/compare/comparison.h"
@@ -29,6 +32,13 @@ std::string scene_command_line(const StudyScene& scene) {
 
 namespace {
 
+/// In any case of letters.
+bool has_part(std::string_view text, std::string_view part) {
+    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+    const auto same = [&](char a, char b) { return lower(a) == lower(b); };
+    return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
+}
+
 std::string figure_line(const StudyScene& scene, const MethodResult& result) {
     return fmt::format("{}, {} {}: build {}, trace {}", scene.label, rate_text(result.rate), result.method,
                        seconds_text(result.build_median()), seconds_text(result.resolve_median()));
@@ -45,6 +55,33 @@ void StudyBench::go_on() const {
 
 void StudyBench::stage(const std::string& what) const {
     if (settings_.on_stage) settings_.on_stage(what);
+}
+
+bool StudyBench::takes(const std::string& label) const {
+    return settings_.scenes.empty() ||
+           std::ranges::any_of(settings_.scenes, [&](const auto& name) { return has_part(label, name); });
+}
+
+void StudyBench::offer_scenes(const std::vector<std::string>& labels) {
+    has_offered_ = true;
+    for (const std::string& name : settings_.scenes) {
+        if (std::ranges::any_of(labels, [&](const auto& label) { return has_part(label, name); })) continue;
+        diagnostics_.error({},
+                           fmt::format("study {} has no scene \"{}\"; it has: {}", result_.name, name,
+                                       fmt::join(labels, ", ")),
+                           kNoSuchScene);
+        throw StudyStopped();
+    }
+}
+
+void StudyBench::begin_scene(const std::string& stage) const {
+    go_on();
+    if (!has_offered_ && !settings_.scenes.empty()) {
+        diagnostics_.error({}, fmt::format("the scenes of study {} cannot be chosen", result_.name),
+                           kNoSuchScene);
+        throw StudyStopped();
+    }
+    this->stage(stage);
 }
 
 StudyScene StudyBench::scene(const std::string& label, const std::string& name, double micropolygons) const {
@@ -77,8 +114,7 @@ StudySceneFacts& StudyBench::note_facts(const StudyScene& scene, const FrameStat
 }
 
 FrameStats StudyBench::render(const StudyScene& scene, const SampleRate& rate) {
-    go_on();
-    stage("rendering " + scene.label);
+    begin_scene("rendering " + scene.label);
     const RenderSettings settings = render_settings();
     std::optional<FrameResult> result;
     const std::string text = scene_text(scene.name, scene.parameters);
@@ -98,8 +134,7 @@ FrameStats StudyBench::render(const StudyScene& scene, const SampleRate& rate) {
 }
 
 SharedFrame StudyBench::frame(const StudyScene& scene) {
-    go_on();
-    stage("shading " + scene.label);
+    begin_scene("shading " + scene.label);
     const RenderSettings settings = render_settings();
     std::optional<SharedFrame> frame;
     const std::string text = scene_text(scene.name, scene.parameters);

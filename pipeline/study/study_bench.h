@@ -35,6 +35,13 @@ class StudyBench {
     /// The rate of pictures that the paper supersamples 13x13 or finer.
     SampleRate reference_rate() const { return settings_.quick ? SampleRate{8, 8} : SampleRate{13, 13}; }
 
+    /// Tells which scenes the study has, before it makes the first: those that the settings ask for are
+    /// measured alone. Where they ask for one that is not among them, or of a study that does not tell, an
+    /// error says so and the study stops.
+    void offer_scenes(const std::vector<std::string>& labels);
+    /// Whether a scene that has been offered is to be measured.
+    bool takes(const std::string& label) const;
+
     /// A scene at the size that a study of this kind (quick or not) is measured at; `micropolygons`
     /// multiplies the scene's own at full size.
     StudyScene scene(const std::string& label, const std::string& name, double micropolygons) const;
@@ -68,11 +75,13 @@ class StudyBench {
 
   private:
     RenderSettings render_settings() const;
+    void begin_scene(const std::string& stage) const;
     StudySceneFacts& note_facts(const StudyScene& scene, const FrameStats& stats);
 
     const StudySettings& settings_;
     Diagnostics& diagnostics_;
     StudyResult& result_;
+    bool has_offered_ = false;
 };
 
 /// "trapeze scene NAME ..." as one would write it to get this scene.

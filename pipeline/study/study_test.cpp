@@ -92,6 +92,37 @@ TEST(StudyScenes, AllCanBeMade) {
     EXPECT_EQ(std::count(names.begin(), names.end(), halberd_scene(bench).name), 1);
 }
 
+TEST(StudyBench, TakesTheScenesThatAreAskedFor) {
+    Bench b;
+    b.settings.scenes = {"hAIR", "sponza"};
+    StudyBench bench(b.settings, b.diagnostics, b.result);
+    bench.offer_scenes({"Hairball", "Hairball that swings far", "Rotated Sponza", "Hand"});
+    EXPECT_TRUE(bench.takes("Hairball"));
+    EXPECT_TRUE(bench.takes("Hairball that swings far"));
+    EXPECT_TRUE(bench.takes("Rotated Sponza"));
+    EXPECT_FALSE(bench.takes("Hand"));
+    EXPECT_EQ(b.messages, "");
+    EXPECT_NO_THROW(bench.frame(tiny()));
+    EXPECT_THROW(bench.offer_scenes({"Hairball", "Hand"}), StudyStopped);
+    EXPECT_EQ(b.messages, "error: study  has no scene \"sponza\"; it has: Hairball, Hand\n");
+}
+
+TEST(StudyBench, TakesAllScenesUnlessAskedForSome) {
+    Bench b;
+    StudyBench bench(b.settings, b.diagnostics, b.result);
+    EXPECT_TRUE(bench.takes("Hand"));
+}
+
+/// Before anything is measured.
+TEST(Study, UnknownScenesAreErrors) {
+    for (const StudyName& study : study_names()) {
+        Bench b;
+        b.settings.scenes = {"nowhere"};
+        EXPECT_FALSE(run_study(study.name, b.settings, b.diagnostics)) << study.name;
+        EXPECT_TRUE(b.diagnostics.kinds().contains(kNoSuchScene)) << study.name << b.messages;
+    }
+}
+
 TEST(Study, UnknownNamesGiveNothing) {
     Bench b;
     EXPECT_FALSE(run_study("table6", b.settings, b.diagnostics));

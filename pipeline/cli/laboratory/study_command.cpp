@@ -20,6 +20,7 @@ namespace {
 std::vector<RecordedOption> study_options(const Arguments& arguments) {
     std::vector<RecordedOption> options = {{"repeat", {std::to_string(arguments.study.rounds)}}};
     if (arguments.study.quick) options.push_back({"quick", {}});
+    if (!arguments.study.scenes.empty()) options.push_back({"scenes", arguments.study.scenes});
     if (!arguments.study.bart.empty()) options.push_back({"bart", {arguments.study.bart}});
     return options;
 }
@@ -30,6 +31,7 @@ std::optional<StudyResult> run(const Arguments& arguments, const Interrupt& inte
     settings.quick = arguments.study.quick;
     settings.rounds = arguments.study.rounds;
     settings.memory_bytes = arguments.memory_bytes;
+    settings.scenes = arguments.study.scenes;
     settings.bart_folder = arguments.study.bart;
     settings.cancelled = &interrupt.requested();
     settings.on_stage = [&](const std::string& what) {
@@ -51,7 +53,10 @@ int study_command(const Arguments& arguments, Terminal& terminal, Diagnostics& d
     const Interrupt interrupt;
     auto result = run(arguments, interrupt, terminal, diagnostics);
     if (interrupt.requested()) return interrupt.exit_code();
-    if (!result) return diagnostics.kinds().contains(kTooLittleMemory) ? kExitNoMemory : kExitInternal;
+    if (!result)
+        return diagnostics.kinds().contains(kNoSuchScene)       ? kExitUsage
+               : diagnostics.kinds().contains(kTooLittleMemory) ? kExitNoMemory
+                                                                : kExitInternal;
     result->machine.trapeze = kVersion, result->machine.revision = revision();
     result->command = arguments.words;
     result->options = study_options(arguments);

@@ -39,8 +39,9 @@ struct StudyArguments {
     std::string name;
     bool quick = false;
     int rounds = 3;
-    std::string report, json, csv;  ///< files; empty: none
-    std::string bart;               ///< the folder of BART's scenes; empty: there is none
+    std::string report, json, csv;    ///< files; empty: none
+    std::vector<std::string> scenes;  ///< empty: all
+    std::string bart;                 ///< the folder of BART's scenes; empty: there is none
 };
 
 /// What `trapeze cat` alone has; the file to write is Arguments::output, empty or "-": standard output.

@@ -417,6 +417,14 @@ void add_study_options(CLI::App& app, Arguments& a) {
         ->check(CLI::IsMember(known))
         ->type_name("NAME");
     app.add_flag("--quick", s.quick, "a quarter of the pixels and fewer samples: minutes instead of an hour");
+    app.add_option(
+           "--scenes", s.scenes,
+           "measures these scenes alone: names or parts of names, separated by commas, of msbvh, mbkd, "
+           "dynamic, structures and table5")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(a_name())
+        ->type_name("NAME,...");
     add_file(app, "--bart", s.bart,
              "the folder of the Benchmark for Animated Ray Tracing, with kitchen/aff and museum/aff: dynamic "
              "follows them, too",
