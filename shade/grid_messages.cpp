@@ -107,6 +107,8 @@ bool GridMessages::find_option(std::string_view name, rsl::Type type, const vm::
     if (name == "Shutter") return set_value(std::array{o.shutter_open, o.shutter_close}, type, out);
     if (name == "Clipping") return set_value(std::array{o.near_clip, o.far_clip}, type, out);
     if (name == "Frame") return set_value(std::array{static_cast<float>(o.frame)}, type, out);
+    if (name == "trace:maxdepth")
+        return set_value(std::array{static_cast<float>(o.max_ray_depth)}, type, out);
     return set_parameter(find_user_value(o.user, name), type, out, text);
 }
 

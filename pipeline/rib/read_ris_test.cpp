@@ -343,6 +343,17 @@ TEST(ReadRis, LightsAloneAreNoCauseForWarnings) {
                 IsEmpty());
 }
 
+TEST(ReadRis, WhatLightsIgnoreIsWarnedOf) {
+    EXPECT_THAT(read_ris_world("Light \"PxrRectLight\" \"l\" \"string lightColorMap\" [\"sky.tex\"]\n"
+                               "Light \"PxrRectLight\" \"m\" \"string lightColorMap\" [\"\"]\n" +
+                               kBall)
+                    .messages,
+                ElementsAre(HasSubstr("only domes have a \"lightColorMap\": \"PxrRectLight\" shines")));
+    const ReadOutcome day = read_ris_world("Light \"PxrEnvDayLight\" \"l\"\n" + kBall);
+    EXPECT_THAT(day.messages, ElementsAre(HasSubstr("sun and sky of \"PxrEnvDayLight\" are not known")));
+    EXPECT_EQ(day.attributes().lights[0]->shape->kind, LightShape::Kind::Dome);
+}
+
 TEST(ReadRis, BxdfsAreShadedOnceAPixelAtLeast) {
     const ReadOutcome r = read_ris_world("ShadingRate 20\n" + kBall + "Bxdf \"PxrDiffuse\" \"b\"\n" + kBall +
                                          "ShadingRate .25\n" + kBall);

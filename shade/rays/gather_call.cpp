@@ -76,11 +76,10 @@ GatherCall::GatherCall(const RayAsker& asker, std::vector<RayLane> lanes, Run& r
 
 void GatherCall::add_output(std::string_view name, int width, const Operand& operand, Run& run,
                             const Step& step) {
-    static constexpr std::pair<std::string_view, From> kOfRays[] = {{"surface:Ci", From::Color},
-                                                                    {"surface:Oi", From::Opacity},
-                                                                    {"ray:origin", From::Origin},
-                                                                    {"ray:direction", From::Direction},
-                                                                    {"ray:length", From::Length}};
+    static constexpr std::pair<std::string_view, From> kOfRays[] = {
+        {"surface:Ci", From::Color},  {"surface:Oi", From::Opacity},      {"volume:Ci", From::Color},
+        {"volume:Oi", From::Opacity}, {"atmosphere:Ci", From::Color},     {"atmosphere:Oi", From::Opacity},
+        {"ray:origin", From::Origin}, {"ray:direction", From::Direction}, {"ray:length", From::Length}};
     const auto* const of_ray = std::ranges::find(kOfRays, name, &std::pair<std::string_view, From>::first);
     std::optional<HitOutput> wanted;
     if (of_ray == std::end(kOfRays))

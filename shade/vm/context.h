@@ -172,6 +172,7 @@ struct LightOutput {
     float* L = nullptr;       ///< from the light to the point: 3 planes
     uint32_t* lit = nullptr;  ///< a plane
     bool distant = false;     ///< by a solar block: there is no place that L comes from
+    bool is_known = false;    ///< such a block has been entered
 };
 
 /// The surroundings of one run. Pointers are borrowed from who starts it and outlive the run; any of them may

@@ -299,7 +299,7 @@ size_t Run::enter_illuminate(const Step& step, size_t at_step) {
     masks_.enter_if(lit);
     // Whoever asked this light wants to know where it is and which lanes it lights, besides Cl.
     if (LightOutput* out = context_.light_output) {
-        out->distant = solar;
+        out->distant = solar, out->is_known = true;
         copy_running(!masks_.all(), lit, 1, varying(reinterpret_cast<float*>(out->lit), lanes()));
         copy_running(!masks_.all(), L.data, 3, varying(out->L, lanes()));
     }

@@ -28,12 +28,14 @@ void look_up(Run& run, const Step& step, std::span<const Operand> operands) {
 Task<> trace_or_look_up(Run& run, const Step& step, std::span<const Operand> operands) {
     if (!run.context().rays || run.registers().text_input(step, 0) != rsl::kTracedMap)
         co_return look_up(run, step, operands);
-    if (step.op == Op::Environment || run.context().light_output || run.light_of_turn())
+    const LightOutput* const light = run.context().light_output;
+    const bool has_way = light ? light->is_known : run.light_of_turn() != nullptr;
+    if (step.op == Op::Environment || has_way)
         co_return co_await run.context().rays->trace(run, step, operands);
     run.warn(
         step,
-        "shadow(\"raytrace\") is traced in light shaders and in illuminance blocks, where it is known which "
-        "light casts it; here it is 0",
+        "shadow(\"raytrace\") is traced in illuminate, solar and illuminance blocks, where it is known which "
+        "way the light comes; here it is 0",
         "rsl-shadow-without-light");
     fill_with_black(run, operands);
 }

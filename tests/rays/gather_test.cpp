@@ -146,6 +146,18 @@ TEST(Gather, LeavesAloneWhatThereIsNot) {
                 0, 64 * 64);
 }
 
+/// Of what is seen through nothing they are the surface's.
+TEST(Gather, ColorsOfVolumesAreThoseOfTheWholeRay) {
+    Case c;
+    c.things = things();
+    expect_told(c.render("vector w = vector(.1, -.2, -1); color seen = 0, open = 0; float n = 0;"
+                         "gather(\"illuminance\", P, w, 0, 1, \"volume:Ci\", seen, \"volume:Oi\", open)"
+                         "  n = comp(seen, 0) + comp(open, 1);"
+                         "color again = trace(P, w), left = 1 - transmission(P, P + 9 * w);"
+                         "Ci = told(n, comp(again, 0) + comp(left, 1), 1);"),
+                1e-6f, 64 * 64);
+}
+
 TEST(Gather, SetsElementsOfArrays) {
     Case c;
     c.things = "Surface \"constant\" Color .25 .5 1 " + wall("3");

@@ -158,6 +158,26 @@ TEST(RayShaders, ShadowsOfNoLightAreWarnedOf) {
     EXPECT_NE(to_string(c.said[0]).find("ask.sl:1:"), std::string::npos) << to_string(c.said[0]);
 }
 
+/// A light's shader that asks before it says where the light is.
+TEST(RayShaders, ShadowsBeforeTheLightIsPlacedAreWarnedOf) {
+    for (const auto& [early, warnings] : {std::pair("", 0), {"hidden = shadow(\"raytrace\", Ps);", 1}}) {
+        SCOPED_TRACE(early);
+        Case c;
+        c.shaders["lamp"] = "light lamp() { float hidden = 0; " + std::string(early) +
+                            " illuminate(point \"world\" (0, 0, 0)) {"
+                            " if (hidden == 0 && " +
+                            (warnings ? "0" : "1") +
+                            " == 1) hidden = shadow(\"raytrace\", Ps); Cl = 1 - hidden; } }";
+        c.things = "Surface \"constant\" " + wall("3");
+        c.asker = "LightSource \"lamp\" 1 ";
+        c.may_say = "rsl-shadow-without-light";
+        expect_told(c.render("color k = 0; illuminance(P) k += Cl; Ci = told(comp(k, 0), " +
+                             std::to_string(warnings) + ", 1);"),
+                    0, 64 * 64);
+        EXPECT_EQ(c.said.size(), static_cast<size_t>(warnings));
+    }
+}
+
 /// In a room of mirrors each bounce behind the first takes one ray, whatever "samples" says.
 TEST(RayShaders, TakeTheirSamplesAtTheFirstBounceAlone) {
     for (const std::string surface :

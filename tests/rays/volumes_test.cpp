@@ -36,6 +36,13 @@ TEST(RayVolumes, TheExteriorOfWhatAsksIsBeforeTheHit) {
                          "color got = 0; gather(\"illuminance\", P, vector(0, 0, -1), 0, 1, \"surface:Ci\", "
                          "got) { } Ci = color(comp(got, 0), e, 1);"),
                 1e-5f);
+    for (const char* volume : {"volume", "atmosphere"})
+        expect_near(
+            c.render(expected +
+                     "color got = 0, open = 0; gather(\"illuminance\", P, vector(0, 0, -1), 0, 1, \"" +
+                     volume + ":Ci\", got, \"" + volume +
+                     ":Oi\", open) { } Ci = color(comp(got, 0), e, comp(open, 1));"),
+            1e-5f);
     expect_near(
         c.render("float t = exp(-.5 * sqrt(50)); Ci = color(comp(indirectdiffuse(P, vector(1, 0, -1), 1, "
                  "\"coneangle\", 1e-4), 0), .25 + .75 * t, 1);"),

@@ -89,6 +89,19 @@ void skip(LightContext& r, ArgumentCursor& c) {
     note(r);
 }
 
+/// What the scene asks of a light and it does not do.
+void warn_of_what_is_ignored(RequestReport& report, const std::string& shader,
+                             const RisParameters& parameters, const LightInstance& light) {
+    if (shader.find("DayLight") != std::string::npos)
+        report.warn_once(fmt::format("the sun and sky of {} are not known; it shines as a dome of one colour",
+                                     in_quotes(shader)),
+                         "ris-light-day");
+    if (light.shape->kind != LightShape::Kind::Dome && !parameters.text("lightColorMap").empty())
+        report.warn_once(
+            fmt::format("only domes have a \"lightColorMap\": {} shines in one colour", in_quotes(shader)),
+            "ris-light-map");
+}
+
 /// Structure, as far as motion blocks go: a Bxdf within one is carried out at once.
 constexpr RequestRow kRisRequests[] = {
     {"Bxdf", bxdf},       {"Pattern", pattern}, {"Light", light},        {"LightFilter", skip},
@@ -118,6 +131,7 @@ void add_ris_light(LightContext& r, const std::string& handle, const ShaderInsta
         return r.report.warn_once(
             fmt::format("no light {} of RIS is known; \"{}\" does not shine", in_quotes(shader.name), handle),
             "ris-light " + shader.name);
+    warn_of_what_is_ignored(r.report, shader.name, parameters, *light);
     light->moving_space = r.state.moving_current();
     r.add_world_light(std::move(light));
 }

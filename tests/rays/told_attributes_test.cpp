@@ -1,0 +1,45 @@
+/// attribute() and option() of what holds of rays.
+#include <gtest/gtest.h>
+
+#include "tests/rays/rays_harness.h"
+
+namespace trapeze::testing {
+namespace {
+
+/// Shaders may ask for what holds where nobody has set anything.
+TEST(RayAttributes, AreToldToShaders) {
+    const auto told = [](const std::string& options, const std::string& attributes, const std::string& asks,
+                         const std::string& expected) {
+        SCOPED_TRACE(options + attributes + asks);
+        Case c;
+        c.things = "Surface \"constant\" " + wall("3");
+        c.options = options, c.asker = attributes;
+        expect_told(c.render("float n = -1, found = " + asks + "; Ci = told(n, " + expected + ", found);"), 0,
+                    64 * 64);
+    };
+    for (const auto& [name, expected] : {std::pair("trace:maxdiffusedepth", "1"),
+                                         {"trace:maxspeculardepth", "2"},
+                                         {"trace:displacements", "0"},
+                                         {"trace:samplemotion", "0"},
+                                         {"trace:bias", "0"},
+                                         {"visibility:camera", "1"},
+                                         {"visibility:diffuse", "0"},
+                                         {"visibility:specular", "0"},
+                                         {"visibility:transmission", "0"}})
+        told("", "", "attribute(\"" + std::string(name) + "\", n)", expected);
+    told("", "Attribute \"trace\" \"int maxspeculardepth\" [7] ", "attribute(\"trace:maxspeculardepth\", n)",
+         "7");
+    told("", "", "option(\"trace:maxdepth\", n)", "10");
+    told("Option \"trace\" \"int maxdepth\" [4] ", "", "option(\"trace:maxdepth\", n)", "4");
+    const std::string mode =
+        "string s = \"\"; float n = attribute(\"shade:transmissionhitmode\", s);"
+        "Ci = told(s == \"";
+    Case c;
+    c.things = "Surface \"constant\" " + wall("3");
+    expect_told(c.render(mode + "shader\" ? 1 : 0, 1, n);"), 0, 64 * 64);
+    c.asker = "Attribute \"shade\" \"string transmissionhitmode\" [\"primitive\"] ";
+    expect_told(c.render(mode + "primitive\" ? 1 : 0, 1, n);"), 0, 64 * 64);
+}
+
+}  // namespace
+}  // namespace trapeze::testing
