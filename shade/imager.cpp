@@ -78,15 +78,23 @@ struct Imager::Impl {
     std::unique_ptr<Textures> textures;  ///< thread-safe
     std::unique_ptr<SceneSpaces> spaces;
     std::unique_ptr<BoundShader> shader;
+    bool is_own_glow = false;
 };
 
 Imager::Imager(const RenderContext& context, const Access& access) : impl_(std::make_unique<Impl>(context)) {
     const Scene& scene = *context.scene;
-    if (!scene.options.imager) return;
-    ShaderInstance instance = *scene.options.imager;
+    const ShaderInstance *asked = scene.options.imager.get(), *const glow = scene.options.glow.get();
+    if (!asked && !glow) return;
     ShaderLibrary library(scene.options, context.diagnostics, access);
-    auto executable = library.find(instance.name, rsl::ShaderKind::Imager, {}, instance.location);
-    if (!executable && instance.name == "glow" && !library.has_said_why_not(instance.name)) return;
+    std::shared_ptr<const vm::Executable> executable;
+    if (glow) {
+        executable = library.find(glow->name, rsl::ShaderKind::Imager, {}, glow->location);
+        impl_->is_own_glow = executable || library.has_said_why_not(glow->name);
+        if (impl_->is_own_glow) asked = glow;
+    }
+    if (!asked) return;
+    ShaderInstance instance = *asked;
+    if (!executable) executable = library.find(instance.name, rsl::ShaderKind::Imager, {}, instance.location);
     if (!executable) {
         auto instead = stand_in(instance);
         if (context.diagnostics && !library.has_said_why_not(instance.name))
@@ -110,6 +118,10 @@ Imager::~Imager() = default;
 
 bool Imager::is_there() const {
     return impl_->shader != nullptr;
+}
+
+bool Imager::is_own_glow() const {
+    return impl_->is_own_glow;
 }
 
 const BoundShader* Imager::shader() const {

@@ -14,14 +14,15 @@ class BoundShader;
 /// A scene's imager shader, ready to run; or none, and then pictures stay as they are.
 class Imager {
   public:
-    /// Finds the shader that Options::imager names; none is missed where that is "glow", which needs no
-    /// shader (core/scene/glow.h), but a scene may have one of this name. One that is not known, is no imager
+    /// Finds the shader that Options::imager names, or a scene's own of the name "glow" where Options::glow
+    /// asks for it, which needs none (core/scene/glow.h). One that is not known, is no imager
     /// or has errors is reported; then there is none, or `background` in place of one that had a background
     /// colour. The context, its scene and `access`, to files, must outlive this.
     explicit Imager(const RenderContext& context, const Access& access = kEverything);
     ~Imager();
 
     bool is_there() const;
+    bool is_own_glow() const;           ///< the scene's own shader is run in place of Imager "glow"
     const BoundShader* shader() const;  ///< null: none
 
     /// Runs the shader over one row of pixels in place: `count` of them, red green blue alpha each, from

@@ -76,6 +76,26 @@ TEST(Glow, ComesBeforeGamma) {
                     1e-5f * gamma.rgba[i]);
 }
 
+/// Imagers see the picture that glows, whichever is asked for first, also in crops.
+TEST(Glow, AndImagersDoNotReplaceEachOther) {
+    constexpr const char* kBehind = "Imager \"background\" \"color bgcolor\" [.1 .2 .3] ";
+    const Image glowing = render_glow(std::string(kGlow) + "Exposure 1 2");
+    for (const std::string& both : {std::string(kGlow) + kBehind, std::string(kBehind) + kGlow}) {
+        const Image image = render_glow(both + "Exposure 1 2");
+        ASSERT_EQ(image.rgba.size(), glowing.rgba.size());
+        for (size_t i = 0; i < image.rgba.size(); i += 4)
+            for (size_t k = 0; k < 3; ++k) {
+                const float behind = .1f * static_cast<float>(k + 1);
+                ASSERT_NEAR(image.rgba[i + k], glowing.rgba[i + k] + (1 - glowing.rgba[i + 3]) * behind,
+                            1e-6f);
+            }
+        const Image part = render_glow(both + "Exposure 1 2 CropWindow .25 .75 .5 1");
+        EXPECT_TRUE(part == part_of(image, part.window));
+    }
+    const Image plain = render_glow("Exposure 1 2");
+    EXPECT_TRUE(render_glow(std::string(kGlow) + kBehind + "Imager \"null\" Exposure 1 2") == plain);
+}
+
 TEST(Glow, LeavesDepthAndOpacity) {
     const Image before = render_glow(""), after = render_glow(kGlow);
     EXPECT_EQ(after.z, before.z);

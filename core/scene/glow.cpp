@@ -48,9 +48,9 @@ float Glow::pixels_y(int picture_width) const {
 }
 
 std::optional<Glow> find_glow(const Options& options, Diagnostics* diagnostics) {
-    if (!options.imager || options.imager->name != "glow") return {};
+    if (!options.glow) return {};
     Glow glow;
-    const GlowParameters parameters(*options.imager, diagnostics);
+    const GlowParameters parameters(*options.glow, diagnostics);
     parameters.take("amount", 0, 1, glow.amount);
     parameters.take("size", 0, Glow::kMostSize, glow.size);
     parameters.take("threshold", 0, kInfinity, glow.threshold);

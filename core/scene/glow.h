@@ -24,7 +24,7 @@ struct Glow {
     float pixels_y(int picture_width) const;
 };
 
-/// What the options' imager asks for, if it is "glow" and spreads anything. Values out of range are reported,
+/// What the options' Imager "glow" asks for, if it spreads anything. Values out of range are reported,
 /// if `diagnostics` is not null, and clamped.
 std::optional<Glow> find_glow(const Options& options, Diagnostics* diagnostics);
 

@@ -102,6 +102,7 @@ struct Options {
     int ray_levels = 0;      ///< Option "trace" "levels" of geometry that rays meet; 0: as many as pay
     ParameterList quantize;  ///< kept
     std::shared_ptr<const ShaderInstance> imager;  ///< null: none
+    std::shared_ptr<const ShaderInstance> glow;    ///< Imager "glow" (glow.h), beside an imager; null: none
     std::string hider = "hidden";
     ParameterList hider_parameters;
     std::vector<Display> displays;              ///< the first is the primary one; others came with '+'

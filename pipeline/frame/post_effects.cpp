@@ -21,14 +21,15 @@ void run_imager(const Imager& imager, Image& image) {
 PostEffects::PostEffects(const RenderContext& asked, const Access& access)
     : asked_(asked),
       imager_(asked, access),
-      glow_(imager_.is_there() ? std::nullopt : find_glow(asked.scene->options, asked.diagnostics)),
+      glow_(imager_.is_own_glow() ? std::nullopt : find_glow(asked.scene->options, asked.diagnostics)),
       context_(with_glow_margin(asked, glow_)) {}
 
 bool PostEffects::apply(Image& image) const {
+    // Light glows before Exposure's gamma, and imagers come after that.
+    if (glow_) glow_picture(*glow_, context_, asked_.camera.crop, image);
+    if (context_.is_cancelled()) return false;
     run_imager(imager_, image);
-    if (!glow_) return true;
-    glow_picture(*glow_, context_, asked_.camera.crop, image);
-    return !context_.is_cancelled();
+    return true;
 }
 
 }  // namespace trapeze

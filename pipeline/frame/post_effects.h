@@ -1,4 +1,4 @@
-/// What happens to a picture after its film: an imager shader runs over its pixels, or it glows.
+/// What happens to a picture after its film: it glows, then an imager shader runs over its pixels.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace trapeze {
 
 class PostEffects {
   public:
-    /// Finds the imager or the glow that the scene asks for. `asked` and `access` outlive this.
+    /// Finds the imager and the glow that the scene asks for. `asked` and `access` outlive this.
     PostEffects(const RenderContext& asked, const Access& access);
 
     /// The context of what is to be rendered for them: as asked, with the margin around the crop that glows
@@ -28,7 +28,7 @@ class PostEffects {
   private:
     const RenderContext& asked_;
     Imager imager_;
-    std::optional<Glow> glow_;  ///< none where there is an imager
+    std::optional<Glow> glow_;
     RenderContext context_;
 };
 

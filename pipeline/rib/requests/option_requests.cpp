@@ -178,7 +178,14 @@ void check_aperture(OptionContext& r, ParameterList& given) {
     if (v.size() != 4 || !std::all_of(v.begin(), v.end(), [](float x) { return std::isfinite(x); })) {
         r.report.error("\"aperture\" needs 4 numbers: blades, angle, roundness and density; left out");
         std::erase_if(given.values, [](const Parameter& value) { return value.name == "aperture"; });
-    } else if (std::abs(v[2]) > 1 || std::abs(v[3]) > 1) {
+        return;
+    }
+    if (v[0] != std::floor(v[0]) || (v[0] != 0 && v[0] < 3))
+        r.report.warn_once(
+            "\"aperture\" has 3 blades or more, in whole numbers, or 0 for a disk: fewer are a disk, too, and "
+            "parts of a blade are left out",
+            "hider-aperture-blades");
+    if (std::abs(v[2]) > 1 || std::abs(v[3]) > 1) {
         r.report.warn_once("roundness and density of \"aperture\" are from -1 to 1; they are clamped",
                            "hider-aperture");
     }
@@ -240,13 +247,18 @@ void rename_background(ParameterList& parameters) {
     }
 }
 
-/// Imager name parameters: a shader of pixels, after the surfaces'.
+/// Imager name parameters: a shader of pixels, after the surfaces'. Glow takes no other's place.
 void imager(OptionContext& r, ArgumentCursor& c) {
     auto instance = std::make_shared<ShaderInstance>(r.shader(c, "imager"));
     instance->parameters = r.shader_parameters(c);
     if (instance->name == "background") rename_background(instance->parameters);
-    const bool is_none = instance->name.empty() || instance->name == "null";
-    changeable_options(r).imager = is_none ? nullptr : std::move(instance);
+    Options& o = changeable_options(r);
+    if (instance->name == "glow")
+        o.glow = std::move(instance);
+    else if (instance->name.empty() || instance->name == "null")
+        o.imager = nullptr, o.glow = nullptr;
+    else
+        o.imager = std::move(instance);
 }
 
 /// Hider type parameters: the samples of a path tracer's count where PixelSamples has not been given. What it
