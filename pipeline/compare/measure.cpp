@@ -14,6 +14,7 @@
 #include "pipeline/compare/occlusion_rays.h"
 #include "pipeline/compare/sample_groups.h"
 #include "pipeline/frame/cost/stopwatch.h"
+#include "pipeline/frame/frame_memory.h"
 #include "pipeline/frame/tiles/resolve_tiles.h"
 
 namespace trapeze {
@@ -44,17 +45,18 @@ void tell_of_memory(const SharedFrame& frame, const std::vector<Sampler>& sample
         if (parts.size() > 1)
             diagnostics.note(
                 {},
-                fmt::format("{} is measured in {} parts of the picture: in one it may take {} "
-                            "MiB with its grids, more than the budget of {} MiB",
-                            sampler.name(), parts.size(), (grids + memory.bytes(frame.grids)) >> 20,
-                            frame.memory_budget >> 20),
+                fmt::format("{} is measured in {} parts of the picture: in one it may take {} with its "
+                            "grids, more than the budget of {}",
+                            sampler.name(), parts.size(),
+                            mebibytes_text(static_cast<double>(grids + memory.bytes(frame.grids))),
+                            mebibytes_text(static_cast<double>(frame.memory_budget))),
                 "method-parts");
         if (grids + most > frame.memory_budget)
             diagnostics.warning(
                 {},
-                fmt::format("{} may take {} MiB with its grids while it is built, more than the "
-                            "budget of {} MiB",
-                            sampler.name(), (grids + most) >> 20, frame.memory_budget >> 20),
+                fmt::format("{} may take {} with its grids while it is built, more than the budget of {}",
+                            sampler.name(), mebibytes_text(static_cast<double>(grids + most)),
+                            mebibytes_text(static_cast<double>(frame.memory_budget))),
                 kTooLittleMemory);
     }
 }

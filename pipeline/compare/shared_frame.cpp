@@ -23,11 +23,11 @@ std::optional<Region> whole_region(const SharedFrame& frame, const Tessellation&
     }
     Region region = split_into_regions(frame.pixels, tessellation.subpatches(), {~size_t{0}, 1, 0}).front();
     if (region.estimated_bytes <= budget) return region;
-    const auto mib = [](size_t bytes) { return std::to_string(bytes >> 20) + " MiB"; };
     frame.context.diagnostics->error({},
                                      "the grids and trees of the whole picture may take " +
-                                         mib(region.estimated_bytes) + ", more than the budget of " +
-                                         mib(budget) +
+                                         mebibytes_text(static_cast<double>(region.estimated_bytes)) +
+                                         ", more than the budget of " +
+                                         mebibytes_text(static_cast<double>(budget)) +
                                          "; a smaller --crop or --resolution, a larger --shading-rate or "
                                          "--memory helps",
                                      kTooLittleMemory);

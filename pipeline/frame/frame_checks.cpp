@@ -5,6 +5,7 @@
 #include <string>
 
 #include "composite/mattes/matte_layers.h"
+#include "pipeline/frame/frame_memory.h"
 
 namespace trapeze {
 
@@ -28,12 +29,13 @@ std::optional<Sampler> sampler_for(const RenderContext& context, const RenderSet
 
 void check_region_memory(const RenderContext& context, const PixelRect& pixels, size_t used, size_t budget) {
     if (used <= budget) return;
-    const auto mib = [](size_t bytes) { return std::to_string(bytes >> 20) + " MiB"; };
-    context.diagnostics->warning({},
-                                 "a region of " + std::to_string(pixels.width()) + "x" +
-                                     std::to_string(pixels.height()) + " pixels may take " + mib(used) +
-                                     " for grids and tree, more than the budget of " + mib(budget),
-                                 "memory-budget");
+    context.diagnostics->warning(
+        {},
+        fmt::format("a region of {}x{} pixels may take {} for grids and tree, more "
+                    "than its {} of the memory budget",
+                    pixels.width(), pixels.height(), mebibytes_text(static_cast<double>(used)),
+                    mebibytes_text(static_cast<double>(budget))),
+        "memory-budget");
 }
 
 void note_matte_loss(const RenderContext& context, const Image& image) {

@@ -43,6 +43,11 @@ size_t hit_list_bytes(size_t region_bytes) {
     return region_bytes / kListsShare;
 }
 
+std::string mebibytes_text(double bytes) {
+    const double mebibytes = bytes / (1 << 20);
+    return fmt::format("{:.{}f} MiB", mebibytes, mebibytes < 10 ? 1 : 0);
+}
+
 bool picture_fits(const RenderContext& context, const RenderSettings& settings) {
     const PixelRect pixels = sampled_pixels(context.camera, context.scene->options);
     if (pixels.empty()) return true;
@@ -55,14 +60,13 @@ bool picture_fits(const RenderContext& context, const RenderSettings& settings) 
     const size_t most =
         settings.access->is_confined() && settings.memory_bytes ? settings.memory_bytes : machine_memory();
     if (bytes <= static_cast<double>(most)) return true;
-    constexpr double kMiB = 1 << 20;
     context.diagnostics->error(
         {},
-        fmt::format("a picture of {}x{} pixels takes {:.0f} MiB, more than the {} of {:.0f} MiB; a smaller "
-                    "--resolution or --crop helps",
-                    pixels.width(), pixels.height(), bytes / kMiB,
+        fmt::format("a picture of {}x{} pixels takes {}, more than the {} of {}; a smaller --resolution or "
+                    "--crop helps",
+                    pixels.width(), pixels.height(), mebibytes_text(bytes),
                     most == machine_memory() ? "machine's memory" : "limit",
-                    static_cast<double>(most) / kMiB),
+                    mebibytes_text(static_cast<double>(most))),
         kPictureTooLarge);
     return false;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include "core/scene/render_context.h"
 #include "pipeline/frame/render_settings.h"
@@ -30,6 +31,9 @@ class MemoryBudget {
 /// For the lists of hits of all threads, in bytes, beside the grids and the tree of a region that may take
 /// `region_bytes`.
 size_t hit_list_bytes(size_t region_bytes);
+
+/// "1.5 MiB", "240 MiB": small amounts to a tenth, so that none is said to be nothing.
+std::string mebibytes_text(double bytes);
 
 /// The Diagnostic::kind of the error that the machine's memory cannot hold the picture.
 inline constexpr const char* kPictureTooLarge = "picture-too-large";

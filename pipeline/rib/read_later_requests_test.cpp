@@ -248,6 +248,11 @@ TEST(Settings, AperturesHaveFourNumbers) {
     EXPECT_THAT(beyond.messages, ElementsAre(HasSubstr("a.rib:2:1: warning: Hider: roundness and density")));
     EXPECT_EQ(make_camera(beyond.scene().options).aperture.roundness, -1);
     EXPECT_EQ(make_camera(beyond.scene().options).aperture.density, 1);
+    for (const char* blades : {"[2 0 0 0]", "[6.5 0 0 0]", "[-3 0 0 0]"})
+        EXPECT_THAT(aperture(declared + blades).messages, ElementsAre(HasSubstr("3 blades or more")))
+            << blades;
+    for (const char* blades : {"[0 0 0 0]", "[3 0 0 0]"})
+        EXPECT_THAT(aperture(declared + blades).messages, IsEmpty()) << blades;
     for (const char* value : {"\"float[3] aperture\" [6 0 0]", "\"aperture\" [6 0 0 0 0]",
                               "\"float[4] aperture\" [6 1e39 0 0]", "\"string aperture\" [\"six\"]"}) {
         const ReadOutcome wrong = aperture(value);
