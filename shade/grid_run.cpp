@@ -41,6 +41,13 @@ bool same_uniforms(const LayeredShader* shader, const ShadingGrid& a, const Shad
     return true;
 }
 
+/// What a grid is seen through: rays have `left` a surface that may say so, which the hit's own does not
+/// know; else its atmosphere.
+const LayeredShader* volume_before(const ShadingGrid& grid, const Material& material, const Material* left) {
+    if (left) return grid.medium.inside ? left->interior : left->exterior;
+    return material.atmosphere;
+}
+
 /// Takes from a list the grids that can share a run of the shader with its first.
 std::vector<ShadingGrid*> take_run(std::vector<ShadingGrid*>& grids, const LayeredShader& shader) {
     const ShadingGrid& first = *grids.front();
@@ -72,11 +79,12 @@ void see_displaced(bool moves_on, ShadingGrid& grid) {
 
 }  // namespace
 
-bool can_share_run(const Material& material, const ShadingGrid& a, const ShadingGrid& b) {
+bool can_share_run(const Material& material, const Material* left, const ShadingGrid& a,
+                   const ShadingGrid& b) {
     if (material.asks_object_space && a.primitive != b.primitive) return false;
     if (a.medium != b.medium || a.own_colors != b.own_colors) return false;
     return same_uniforms(material.displacement, a, b) && same_uniforms(material.surface, a, b) &&
-           same_uniforms(material.atmosphere, a, b);
+           same_uniforms(volume_before(a, material, left), a, b);
 }
 
 GridRun::GridRun(const RenderContext& context, Textures& textures, const Material& material,
@@ -130,11 +138,8 @@ Task<> GridRun::run(const AovLayout& aovs, const HitOutputs* asked) {
     clouds_.finish();
 }
 
-/// What the grids are seen through: rays have left a surface that may say so, which the hit's own does not
-/// know; else its atmosphere.
 const LayeredShader* GridRun::volume() const {
-    if (left_) return grids_.front()->medium.inside ? left_->interior : left_->exterior;
-    return material_.atmosphere;
+    return volume_before(*grids_.front(), material_, left_);
 }
 
 void GridRun::set_own_colors() {

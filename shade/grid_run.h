@@ -24,8 +24,9 @@ struct GridRunScratch {
 };
 
 /// Whether shaders may run over both grids at once: their uniform variables, which a run has one value of,
-/// are the same, and so is the primitive, as far as the material asks.
-bool can_share_run(const Material& material, const ShadingGrid& a, const ShadingGrid& b);
+/// are the same, and so is the primitive, as far as the material asks. `left`: as of GridRun.
+bool can_share_run(const Material& material, const Material* left, const ShadingGrid& a,
+                   const ShadingGrid& b);
 
 /// One run of a material's shaders over a batch of grids: what the machine's lanes, the lights and the
 /// messages are set up for.

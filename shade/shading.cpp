@@ -178,20 +178,20 @@ Task<> Shading::Impl::shade(std::span<ShadingGrid* const> grids, ShadeScratch& s
     std::vector<ShadingGrid*>& batch = state.batch;
     for (size_t first = 0; first < grids.size();) {
         const Material& material = materials.of(grids[first]->primitive_index);
+        const RayMedium& medium = grids[first]->medium;
+        const Material* const left =
+            medium.primitive != RayMedium::kNone ? &materials.of(medium.primitive) : nullptr;
         batch.clear();
         size_t vertices = 0, next = first;
         const size_t most = known_endless ? 1 : batch_vertices();
         for (; next < grids.size() && (batch.empty() || vertices < most); ++next) {
             ShadingGrid& grid = *grids[next];
             if (&materials.of(grid.primitive_index) != &material ||
-                !can_share_run(material, *grids[first], grid))
+                !can_share_run(material, left, *grids[first], grid))
                 break;
             batch.push_back(&grid);
             vertices += grid.vertex_count();
         }
-        const RayMedium& medium = grids[first]->medium;
-        const Material* const left =
-            medium.primitive != RayMedium::kNone ? &materials.of(medium.primitive) : nullptr;
         GridRun run(context, textures, material, batch, state.run, rays ? &service : nullptr,
                     {&clouds, depth == 0 ? &bakes : nullptr, &surfels, of_discs}, left);
         const AovLayout none;
