@@ -1,6 +1,7 @@
 #include "shade/grid_run.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "core/scene/light_groups.h"
@@ -19,15 +20,16 @@ void raise(std::atomic<float>& maximum, float value) {
     while (value > seen && !maximum.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {}
 }
 
-/// Whether a run may take both variables from the first grid alone: they are not uniform, or have the same
-/// values.
-bool same_uniform(const GridVariable* a, const GridVariable* b) {
+/// Whether one run may have both variables: each grid's vertices have its own, as the parameter `varies`, or
+/// they are not uniform, or have the same values.
+bool same_uniform(const GridVariable* a, const GridVariable* b, bool varies) {
     if (!a || !b) return a == b;
     if (a->uniform != b->uniform || a->strings != b->strings) return false;
     if (a->planes.size() != b->planes.size()) return false;
-    if (!a->uniform) return true;
+    if (!a->uniform || varies) return true;
     return std::ranges::equal(a->planes, b->planes, [](const auto& x, const auto& y) {
-        return x.empty() == y.empty() && (x.empty() || x.front() == y.front());
+        return x.empty() == y.empty() &&
+               (x.empty() || std::bit_cast<uint32_t>(x.front()) == std::bit_cast<uint32_t>(y.front()));
     });
 }
 
@@ -35,8 +37,8 @@ bool same_uniforms(const LayeredShader* shader, const ShadingGrid& a, const Shad
     if (!shader) return true;
     for (const BoundShader* layer : shader->layers)
         for (const rsl::ProgramParameter& parameter : layer->program().parameters)
-            if (!same_uniform(suitable_variable(a, parameter.name, parameter.type),
-                              suitable_variable(b, parameter.name, parameter.type)))
+            if (!same_uniform(suitable_variable(a, layer->program(), parameter),
+                              suitable_variable(b, layer->program(), parameter), layer->varies(parameter)))
                 return false;
     return true;
 }
@@ -203,6 +205,7 @@ Task<vm::Registers*> GridRun::run_layer(const LayeredShader& shader, size_t laye
     layers.push_back(&registers);
     registers.start(batch.lanes);
     bound.set_parameters(registers, grids);
+    if (context_.diagnostics) bound.report_sent(*grids.front(), *context_.diagnostics);
     // Lights that ask for the surface's variables may see them before the surface sets them.
     const bool all = std::ranges::any_of(material_.lights,
                                          [](const Lamp* lamp) { return lamp->asks_surface || lamp->area; });

@@ -23,8 +23,9 @@ struct GridRunScratch {
     LightRig lights;
 };
 
-/// Whether shaders may run over both grids at once: their uniform variables, which a run has one value of,
-/// are the same, and so is the primitive, as far as the material asks. `left`: as of GridRun.
+/// Whether shaders may run over both grids at once: what a run has one value of, their uniform variables and
+/// what rays bring along, is the same, and so is the primitive, as far as the material asks. `left`: as of
+/// GridRun.
 bool can_share_run(const Material& material, const Material* left, const ShadingGrid& a,
                    const ShadingGrid& b);
 

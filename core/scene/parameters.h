@@ -36,6 +36,9 @@ constexpr int component_count(ValueType type) {
     return 1;
 }
 
+/// The shaders that run where a ray hits: a value may be sent to one kind of them.
+enum class HitShader : uint8_t { Surface, Displacement, Volume };
+
 /// What a value is: its class, type and array length ("varying float[2]").
 struct Declaration {
     StorageClass storage = StorageClass::Uniform;

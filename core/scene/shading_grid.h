@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/diagnostics.h"
 #include "core/grid.h"
 #include "core/ray_footprint.h"
 #include "core/scene/parameters.h"
@@ -46,6 +47,13 @@ struct GridVariable {
     bool uniform = false;                    ///< one value for the whole grid
     std::vector<std::vector<float>> planes;  ///< declaration.floats_per_item() planes
     std::vector<std::string> strings;        ///< strings are always uniform
+};
+
+/// A value that comes along with a ray and stands in place of a parameter of shaders that run where it hits.
+struct SentVariable {
+    HitShader to = HitShader::Surface;
+    GridVariable variable;  ///< uniform
+    SourceLocation at;      ///< of what sends it
 };
 
 /// What a ray goes through between two surfaces: the inside of the one that it has left, or what is outside.
@@ -117,6 +125,8 @@ struct ShadingGrid {
     /// none at all.
     std::vector<std::vector<float>> aovs;
 
+    /// Of what a ray has hit: what came along with the ray; of one name the last counts.
+    std::vector<SentVariable> sent;
     /// Of what a ray has hit: what was asked of the vertex there, besides its colour
     /// (shade/rays/hit_outputs.h).
     std::vector<float> answers;

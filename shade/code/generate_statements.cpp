@@ -252,11 +252,7 @@ void Generator::light_block(const Statement& s) {
 void Generator::option_for_lights(const Expression& name, const Expression& argument, Ids& inputs) {
     RegisterId sent = value(argument);
     const Type type = program_->reg(sent).type;
-    if (type.is_unsized())
-        return diagnostics_.warning(
-            argument.at,
-            fmt::format("\"{}\" of illuminance is ignored: arrays that grow are not sent", name.text),
-            "rsl-send-type " + name.text);
+    if (type.is_unsized()) return warn_of_growing("illuminance", name, argument);
     if (type.is_array()) {
         const RegisterId copy = add_register(Register::Kind::Local, type);
         copy_array(sent, copy, type.base);
@@ -264,6 +260,12 @@ void Generator::option_for_lights(const Expression& name, const Expression& argu
     }
     inputs.push_back(constant_text(name.text));
     inputs.push_back(sent);
+}
+
+void Generator::warn_of_growing(const char* word, const Expression& name, const Expression& argument) {
+    diagnostics_.warning(
+        argument.at, fmt::format("\"{}\" of {} is ignored: arrays that grow are not sent", name.text, word),
+        "rsl-send-type " + name.text);
 }
 
 /// A loop over lights or rays asks for its inputs again in each turn: those that its turns change become
@@ -300,8 +302,13 @@ void Generator::gather_statement(const Statement& s) {
     for (size_t i = kPlain; i + 1 < s.expressions.size(); i += 2) {
         const Expression &name = *s.expressions[i], &argument = *s.expressions[i + 1];
         if (!is_gather_output(name)) {
+            const RegisterId given = value(argument);
+            if (name.text.starts_with("send:") && program_->reg(given).type.is_unsized()) {
+                warn_of_growing("gather", name, argument);
+                continue;
+            }
             more.push_back(value(name));
-            more.push_back(value(argument));
+            more.push_back(given);
         } else if (argument.type.is_array() || argument.type.base == Base::String) {
             diagnostics_.warning(argument.at,
                                  fmt::format("gather() does not bring back {}: \"{}\" stays as it is",

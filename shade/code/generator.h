@@ -108,6 +108,7 @@ class Generator {
     void loop_statement(const Statement& s);
     void light_block(const Statement& s);
     void option_for_lights(const Expression& name, const Expression& argument, Ids& inputs);
+    void warn_of_growing(const char* word, const Expression& name, const Expression& argument);
     void keep_inputs(size_t opening);
     void gather_statement(const Statement& s);
     void return_statement(const Statement& s);

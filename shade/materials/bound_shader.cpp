@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/scene/scene.h"
+#include "shade/materials/shader_library.h"
 
 namespace trapeze {
 namespace {
@@ -63,6 +64,31 @@ void to_camera(float* values, Base base, const M44f& camera_from_shader) {
 /// Elements of a value of this type; `given` of an array of no length in it.
 size_t element_count(const rsl::Type& type, size_t given) {
     return type.is_unsized() ? given : static_cast<size_t>(std::max(type.length, 1));
+}
+
+/// Whether a parameter of this type can take a variable's values, with as many elements.
+bool can_take(const rsl::Type& type, const GridVariable& variable) {
+    if (!suits(variable.declaration.type, type.base)) return false;
+    if (type.base == Base::String) return !variable.strings.empty();
+    const size_t width = static_cast<size_t>(rsl::width_of(type.base));
+    const size_t planes = element_count(type, variable.planes.size() / width) * width;
+    return planes > 0 && variable.planes.size() == planes &&
+           std::ranges::none_of(variable.planes, [](const auto& plane) { return plane.empty(); });
+}
+
+/// The same of what rays bring along, of which texts are as many, too.
+bool can_take_sent(const rsl::Type& type, const GridVariable& variable) {
+    return can_take(type, variable) &&
+           (type.base != Base::String ||
+            variable.strings.size() == element_count(type, variable.strings.size()));
+}
+
+/// Whether a value is sent to this parameter, of whatever type.
+bool is_for(const SentVariable& sent, const rsl::Program& program, const rsl::ProgramParameter& parameter) {
+    const rsl::ShaderKind kind = sent.to == HitShader::Surface        ? rsl::ShaderKind::Surface
+                                 : sent.to == HitShader::Displacement ? rsl::ShaderKind::Displacement
+                                                                      : rsl::ShaderKind::Volume;
+    return program.kind == kind && sent.variable.name == parameter.name;
 }
 
 std::string& text_of(vm::Registers& registers, const rsl::ProgramParameter& parameter, size_t element) {
@@ -165,16 +191,26 @@ bool BoundShader::take_from_instance(const rsl::ProgramParameter& parameter, Val
     return true;
 }
 
-const GridVariable* suitable_variable(const ShadingGrid& grid, std::string_view name, rsl::Type type) {
-    const GridVariable* variable = grid.find(name);
-    if (!variable || !suits(variable->declaration.type, type.base)) return nullptr;
-    if (type.base == Base::String) return variable->strings.empty() ? nullptr : variable;
-    const size_t width = static_cast<size_t>(rsl::width_of(type.base));
-    const size_t planes = element_count(type, variable->planes.size() / width) * width;
-    if (planes == 0 || variable->planes.size() != planes) return nullptr;
-    for (const std::vector<float>& plane : variable->planes)
-        if (plane.empty()) return nullptr;
-    return variable;
+const GridVariable* suitable_variable(const ShadingGrid& grid, const rsl::Program& program,
+                                      const rsl::ProgramParameter& parameter) {
+    for (size_t i = grid.sent.size(); i-- > 0;)
+        if (is_for(grid.sent[i], program, parameter) && can_take_sent(parameter.type, grid.sent[i].variable))
+            return &grid.sent[i].variable;
+    const GridVariable* variable = grid.find(parameter.name);
+    return variable && can_take(parameter.type, *variable) ? variable : nullptr;
+}
+
+void BoundShader::report_sent(const ShadingGrid& grid, Diagnostics& diagnostics) const {
+    for (const SentVariable& sent : grid.sent)
+        for (const rsl::ProgramParameter& parameter : program().parameters)
+            if (is_for(sent, program(), parameter) && !can_take_sent(parameter.type, sent.variable))
+                diagnostics.warning(
+                    sent.at,
+                    fmt::format("{} shader \"{}\" declares \"{}\" as another type than what gather "
+                                "sends, and does not take it",
+                                kind_name(program().kind), program().name, parameter.name),
+                    fmt::format("rsl-sent-type {} {} {}", kind_name(program().kind), program().name,
+                                parameter.name));
 }
 
 void BoundShader::set_parameters(vm::Registers& registers, std::span<const ShadingGrid* const> grids) const {
@@ -184,7 +220,7 @@ void BoundShader::set_parameters(vm::Registers& registers, std::span<const Shadi
         const rsl::RegisterId id = parameter.id;
         const size_t width = static_cast<size_t>(rsl::width_of(parameter.type.base));
         const GridVariable* variable =
-            grids.empty() ? nullptr : suitable_variable(*grids.front(), parameter.name, parameter.type);
+            grids.empty() ? nullptr : suitable_variable(*grids.front(), program(), parameter);
         if (!width && parameter.type.is_unsized()) {
             give_value(registers, parameter, variable ? Value{{}, variable->strings} : value);
             continue;
@@ -213,7 +249,7 @@ void BoundShader::set_parameters(vm::Registers& registers, std::span<const Shadi
             }
             size_t at = 0;
             for (const ShadingGrid* grid : grids) {
-                const GridVariable* own = suitable_variable(*grid, parameter.name, parameter.type);
+                const GridVariable* own = suitable_variable(*grid, program(), parameter);
                 const size_t count = grid->vertex_count();
                 if (!own || own->uniform || own->planes[p].size() < count)
                     std::fill_n(to + at, count, own ? own->planes[p].front() : value.floats[p]);
@@ -233,7 +269,7 @@ Task<> BoundShader::set_run_defaults(vm::Machine& machine, vm::Registers& regist
         if (std::ranges::find(given, i) != given.end()) continue;
         const rsl::ProgramParameter& parameter = program().parameters[i];
         // Grids of one run all have the variable, or none has (can_share_run()).
-        if (grids.empty() || !suitable_variable(*grids.front(), parameter.name, parameter.type))
+        if (grids.empty() || !suitable_variable(*grids.front(), program(), parameter))
             co_await machine.run_initial(registers, i, context);
     }
 }

@@ -24,8 +24,16 @@ class BoundShader {
                 const vm::Spaces& spaces, Diagnostics* diagnostics);
 
     /// Sets the parameters in registers that have been started. A primitive variable of a parameter's name
-    /// and type replaces it (RISpec 3.2, section 5).
+    /// and type replaces it (RISpec 3.2, section 5), and what a ray has brought along both.
     void set_parameters(vm::Registers& registers, std::span<const ShadingGrid* const> grids) const;
+
+    /// Warns of what rays bring along for a parameter that is of another type.
+    void report_sent(const ShadingGrid& grid, Diagnostics& diagnostics) const;
+
+    /// Whether each vertex has a value of its own.
+    bool varies(const rsl::ProgramParameter& parameter) const {
+        return executable_->places()[parameter.id].kind == vm::Place::Kind::Varying;
+    }
 
     /// Computes the defaults that follow from the point (Executable::has_run_default) of parameters that
     /// nothing else gives, once the registers have their parameters and predefined variables. `given`: those
@@ -58,8 +66,10 @@ class BoundShader {
     std::vector<size_t> run_defaults_;  ///< parameters that wait for the run: their values are 0
 };
 
-/// The primitive variable of a name whose values a parameter of this type can take, with as many elements;
-/// null when there is none.
-const GridVariable* suitable_variable(const ShadingGrid& grid, std::string_view name, rsl::Type type);
+/// What stands in place of a parameter of a program's: what a ray has brought along for it, else the
+/// primitive variable of its name, if the parameter can take the values and has as many elements; null when
+/// there is none.
+const GridVariable* suitable_variable(const ShadingGrid& grid, const rsl::Program& program,
+                                      const rsl::ProgramParameter& parameter);
 
 }  // namespace trapeze

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace trapeze::rsl {
 namespace {
@@ -81,8 +82,21 @@ std::string listed(const std::string& text, std::string_view name) {
 
 }  // namespace
 
+std::optional<SentName> sent_name(std::string_view text) {
+    static constexpr std::pair<std::string_view, HitShader> kPrefixes[] = {
+        {"send:surface:", HitShader::Surface},
+        {"send:displacement:", HitShader::Displacement},
+        {"send:volume:", HitShader::Volume},
+        {"send:atmosphere:", HitShader::Volume}};
+    for (const auto& [prefix, to] : kPrefixes)
+        if (text.starts_with(prefix)) return SentName{to, text.substr(prefix.size())};
+    return {};
+}
+
 std::string ray_argument_problem(std::string_view call, std::string_view name, const RayArgumentValue& value,
                                  bool of_map) {
+    if (const std::optional<SentName> sent = sent_name(name); sent && call == "gather")
+        return sent->name.empty() ? fmt::format("\"{}\" of gather() names no parameter", name) : "";
     const bool over_sky = call == "occlusion" || call == "indirectdiffuse";
     if (has(kHints, name) || (over_sky && has(kSet, name)) || (of_map && has(kOfMaps, name))) return {};
     if (has(kSet, name) || has(kWithoutEffect, name))

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/scene/parameters.h"
+
 namespace trapeze::rsl {
 
 /// What stands behind the name of an optional argument.
@@ -15,6 +17,14 @@ struct RayArgumentValue {
     const std::string* text = nullptr;  ///< of a Text, if it is known
     std::optional<float> number = {};   ///< of a Number, if it is known and everywhere the same
 };
+
+/// What a name of gather()'s says that sends a value along with its rays: "send:surface:NAME".
+struct SentName {
+    HitShader to;
+    std::string_view name;  ///< of the parameter; part of the text
+};
+/// None where the text is no such name.
+std::optional<SentName> sent_name(std::string_view text);
 
 /// What is wrong with an optional argument of a call, as a warning says it; empty if nothing is. `of_map`:
 /// the call may name a map instead of rays, and what maps are told is right, too.

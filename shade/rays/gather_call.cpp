@@ -71,6 +71,7 @@ GatherCall::GatherCall(const RayAsker& asker, std::vector<RayLane> lanes, Run& r
     });
     kind_ = arguments_.uniform_distribution ? RayKind::Specular : RayKind::Diffuse;
     for (const RayLane& lane : lanes_) most_ = std::max(most_, arguments_.samples_at(lane.lane));
+    for (const RayLane& lane : lanes_) arguments_.sent.append(lane.lane, sent_numbers_);
     first_rays_.resize(lanes_.size(), kNone);
 }
 
@@ -126,13 +127,14 @@ Task<> GatherCall::send(const uint32_t* live) {
         first_rays_[i] = kNone;
         if (!live[lanes_[i].lane] || end <= first_sent_) continue;
         first_rays_[i] = rays_.size();
-        add_rays(lanes_[i], first_sent_, end - first_sent_);
+        add_rays(i, first_sent_, end - first_sent_);
     }
     if (traces_) co_await follow();
 }
 
-/// A lane's rays of some turns. Those that lead nowhere are empty: they miss.
-void GatherCall::add_rays(const RayLane& asking, int first, int count) {
+/// Rays of some turns of one of lanes_. Those that lead nowhere are empty: they miss.
+void GatherCall::add_rays(size_t number, int first, int count) {
+    const RayLane& asking = lanes_[number];
     const size_t lane = asking.lane;
     const RayAim aim(arguments_.from_at(lane), arguments_.towards_at(lane), 0);
     const V3f axis = aim.leads() ? aim.direction : V3f(0, 0, 1);
@@ -141,6 +143,7 @@ void GatherCall::add_rays(const RayLane& asking, int first, int count) {
     const RaySequence sequence(asking.seed, arguments_.samples_at(lane));
     const LaneMotion motion(asker_, asking);
     WalkedRay ray;
+    ray.sent = sent_numbers_.data() + number * arguments_.sent.size();
     ray.segment.only = arguments_.only();
     ray.segment.level = asking.level();
     if (colors_ || !asked_.empty())  // who asks for distances alone asks them of P
@@ -172,6 +175,7 @@ Task<> GatherCall::follow() {
     RayAsk ask;
     ask.kind = kind_, ask.depths = asker_.depths_behind(kind_), ask.label = arguments_.label;
     ask.hit_mode = arguments_.hit_mode, ask.opaque = arguments_.opaque, ask.outputs = &asked_;
+    ask.sent = arguments_.sent.variables();
     const bool too_deep = asker_.is_too_deep(kind_);
     ask.shades = !too_deep && (colors_ || asked_.ask_shaders());
     ask.first_alone = !colors_;

@@ -35,7 +35,7 @@ class GatherCall final : public vm::GatherTurns {
     void add_output(std::string_view name, int width, const vm::Operand& operand, vm::Run& run,
                     const vm::Step& step);
     Task<> send(const uint32_t* live);
-    void add_rays(const RayLane& lane, int first, int count);
+    void add_rays(size_t number, int first, int count);
     Task<> follow();
     void tell(const RayLane& lane, const WalkedRay& ray) const;
 
@@ -54,6 +54,7 @@ class GatherCall final : public vm::GatherTurns {
     std::vector<size_t> first_rays_;  ///< of lanes_: the ray of turn first_sent_; kNone: it sends none
     std::vector<WalkedRay> rays_;
     std::vector<float> answers_;
+    std::vector<float> sent_numbers_;  ///< of all lanes_, arguments_.sent.size() each
     std::vector<float> hits_, misses_;
 };
 

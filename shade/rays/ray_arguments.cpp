@@ -136,6 +136,7 @@ RayArguments::RayArguments(vm::Run& run, const vm::Step& step, std::span<const v
         const std::string& name = registers.text(registers.register_of(step, i));
         const bool text = is_text(registers, step, i + 1);
         warn_of(run, step, i, of_map);
+        if (step.op == Op::Gather && sent.add(run, step, i, operands)) continue;
         if (text) take_text(name, registers.text(registers.register_of(step, i + 1)));
         if (!text && name == "othreshold") {
             const vm::Operand& given = operands[i + 1];

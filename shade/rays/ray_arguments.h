@@ -8,6 +8,7 @@
 
 #include "core/scene/ray_scene.h"
 #include "core/scene/scene.h"
+#include "shade/rays/sent_values.h"
 #include "shade/vm/machine.h"
 
 namespace trapeze {
@@ -65,6 +66,7 @@ struct RayArguments {
     };
     std::vector<Output> outputs;
     bool sets(std::string_view name) const;  ///< whether it is one of the outputs
+    SentValues sent;                         ///< of gather(): "send:surface:NAME"
 
   private:
     void take_text(std::string_view name, const std::string& text);

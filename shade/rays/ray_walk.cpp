@@ -1,6 +1,7 @@
 #include "shade/rays/ray_walk.h"
 
 #include <algorithm>
+#include <bit>
 #include <tuple>
 
 namespace trapeze {
@@ -34,6 +35,17 @@ float behind(const RaySurfaceHit& hit, float spacing) {
 /// Whether shaders are to displace what rays meet.
 bool is_displaced(const Attributes& attributes) {
     return attributes.rays.displaced && (attributes.displacement || attributes.displacement_bound > 0);
+}
+
+/// Some order by the numbers that came along with rays: equal ones, which can share a run, come together.
+bool is_sent_less(const ShadingGrid* a, const ShadingGrid* b) {
+    for (size_t i = 0; i < a->sent.size(); ++i)
+        for (size_t p = 0; p < a->sent[i].variable.planes.size(); ++p) {
+            const auto of_a = std::bit_cast<uint32_t>(a->sent[i].variable.planes[p].front());
+            const auto of_b = std::bit_cast<uint32_t>(b->sent[i].variable.planes[p].front());
+            if (of_a != of_b) return of_a < of_b;
+        }
+    return false;
 }
 
 std::vector<const RaySegment*> segments_of(std::span<const WalkedRay> rays) {
@@ -155,7 +167,7 @@ RayMedium RayWalk::medium_of(const Met& met) const {
 }
 
 /// The grid of a hit, of which its ray sees the vertex that was hit.
-ShadingGrid& RayWalk::grid_of(Met& met, size_t number) {
+ShadingGrid& RayWalk::grid_of(Met& met, const RayAsk& ask, size_t number) {
     if (scratch_.grids.size() <= number) scratch_.grids.emplace_back();
     ShadingGrid& grid = scratch_.grids[number];
     const int vertex = scene_.dice(met.hit, grid);
@@ -175,6 +187,10 @@ ShadingGrid& RayWalk::grid_of(Met& met, size_t number) {
     see_hit(grid);
     grid.seed = met.ray->seed;
     grid.answers.clear();
+    grid.sent.assign(ask.sent.begin(), ask.sent.end());
+    const float* number_sent = met.ray->sent;
+    for (SentVariable& sent : grid.sent)
+        for (std::vector<float>& plane : sent.variable.planes) plane.front() = *number_sent++;
     met.grid = &grid;
     return grid;
 }
@@ -191,7 +207,7 @@ Task<> RayWalk::visit_hits(std::span<Met> met, const RayAsk& ask, Wants wants, b
         const bool own_colors = !shades(one.hit, ask, wants);
         const bool runs = !own_colors || (ask.shades && medium_of(one) != RayMedium());
         if (!runs && !asks) continue;
-        ShadingGrid& grid = grid_of(one, shaded.size() + asked.size());
+        ShadingGrid& grid = grid_of(one, ask, shaded.size() + asked.size());
         grid.for_opacity = wants == Wants::Opacity, grid.own_colors = own_colors;
         if (runs) one.vertex = grid.hit_vertex;
         (runs ? shaded : asked).push_back(&grid);
@@ -199,6 +215,7 @@ Task<> RayWalk::visit_hits(std::span<Met> met, const RayAsk& ask, Wants wants, b
     stats_.shaded_hits += shaded.size();
     for (std::vector<ShadingGrid*>* grids : std::array{&shaded, &asked}) {
         visit.shades = grids == &shaded;
+        if (!ask.sent.empty()) std::ranges::stable_sort(*grids, is_sent_less);
         std::ranges::stable_sort(*grids, {}, [](const ShadingGrid* grid) {
             return std::tuple(grid->primitive_index, grid->medium, grid->own_colors);
         });

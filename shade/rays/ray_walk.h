@@ -32,10 +32,11 @@ struct WalkedRay {
     uint64_t seed = 0;  ///< of random numbers of shaders that it meets
     RayMedium medium;   ///< what it goes through from the distance `medium_from` on
     float medium_from = 0;
-    V3f seen{0, 0, 0};           ///< colour, as radiance() leaves it
-    V3f through{1, 1, 1};        ///< the part of the light from behind that arrives
-    float distance = kInfinity;  ///< of the first hit
-    float* answers = nullptr;    ///< where the first hit's answers to RayAsk::outputs go
+    V3f seen{0, 0, 0};            ///< colour, as radiance() leaves it
+    V3f through{1, 1, 1};         ///< the part of the light from behind that arrives
+    float distance = kInfinity;   ///< of the first hit
+    float* answers = nullptr;     ///< where the first hit's answers to RayAsk::outputs go
+    const float* sent = nullptr;  ///< numbers for RayAsk::sent, of one variable's planes after the other's
 
     bool hits() const { return distance < kInfinity; }
     /// Of the first hit, from where the ray is said to begin.
@@ -81,6 +82,8 @@ struct RayAsk {
     std::optional<V3f> opaque;
     bool first_alone = false;  ///< rays end at the first surface
     const HitOutputs* outputs = nullptr;
+    /// What comes along with each ray to all that it hits; the numbers are the ray's own.
+    std::span<const SentVariable> sent = {};
 };
 
 /// Rays that should be traced together, at least.
@@ -122,7 +125,7 @@ class RayWalk {
     RayMedium medium_of(const Met& met) const;
     bool shades(const RaySurfaceHit& hit, const RayAsk& ask, Wants wants) const;
     Task<> visit_hits(std::span<Met> met, const RayAsk& ask, Wants wants, bool first);
-    ShadingGrid& grid_of(Met& met, size_t number);
+    ShadingGrid& grid_of(Met& met, const RayAsk& ask, size_t number);
 
     const RayScene& scene_;
     const ShadeHits& shade_;

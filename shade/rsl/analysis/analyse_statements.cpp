@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "shade/operations/ray_parameters.h"
 #include "shade/rsl/analysis/analyser.h"
 #include "shade/rsl/analysis/globals.h"
 #include "shade/rsl/syntax/parser.h"
@@ -218,8 +219,22 @@ void Analyser::take_options(Statement& s, const std::string& word) {
 void Analyser::value_for_lights(const std::string& name, ExpressionPtr& e) {
     const bool sent = name != "lightcache";
     value(e, sent ? Base::Void : Base::String);
-    if (sent && (e->type.base == Base::Void || e->type.base == Base::Bool))
-        error(e->at, "\"" + name + "\" of illuminance has no value to send");
+    if (sent) check_value_to_send("illuminance", name, *e);
+}
+
+void Analyser::check_value_to_send(const std::string& word, const std::string& name, const Expression& e) {
+    if (e.type.base == Base::Void || e.type.base == Base::Bool)
+        error(e.at, "\"" + name + "\" of " + word + " has no value to send");
+}
+
+/// Whether a name sends a value along with gather's rays; says what is wrong with it.
+bool Analyser::is_for_hits(const Expression& name, const Expression& value) {
+    const std::optional<SentName> sent =
+        name.kind == Expression::Kind::Text ? sent_name(name.text) : std::nullopt;
+    if (!sent) return false;
+    if (sent->name.empty()) error(name.at, "\"" + name.text + "\" of gather names no parameter");
+    check_value_to_send("gather", name.text, value);
+    return true;
 }
 
 /// illuminance([category,] P [, axis, angle]), illuminate(P [, axis, angle]), solar([axis, angle]). The
@@ -291,7 +306,8 @@ void Analyser::gather(Statement& s) {
         if (i < 5 || is_name) continue;
         const Expression& name = *s.expressions[i - 1];
         if (!is_gather_output(name)) {
-            check_ray_argument("gather", s.at, name, *s.expressions[i]);
+            if (!is_for_hits(name, *s.expressions[i]))
+                check_ray_argument("gather", s.at, name, *s.expressions[i]);
             continue;
         }
         if (is_place(*s.expressions[i]))

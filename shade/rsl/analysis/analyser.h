@@ -86,6 +86,8 @@ class Analyser {
     void take_options(Statement& s, const std::string& word);
     bool is_for_lights(const Expression& option, const Expression& value, const std::string& word);
     void value_for_lights(const std::string& name, ExpressionPtr& e);
+    void check_value_to_send(const std::string& word, const std::string& name, const Expression& e);
+    bool is_for_hits(const Expression& name, const Expression& value);
     static StatementPtr message_of_light(const Expression& option, ExpressionPtr value);
     void gather(Statement& s);
     /// Names that rays do not know are warned of here, where they are constants: a run would find out only

@@ -402,6 +402,26 @@ TEST(Analysis, IlluminanceSendsValuesToLights) {
     EXPECT_THAT(in_surface("illuminance(P, \"lightcache\", P) ;"), ::testing::HasSubstr("error 1:96: "));
 }
 
+TEST(Analysis, GatherSendsValuesToHits) {
+    const auto sends = [](const std::string& name, const std::string& value) {
+        return in_surface("float k[2] = 1; gather(\"x\", P, N, 1, 4, " + name + ", " + value + ") ;");
+    };
+    for (const char* kind : {"surface", "displacement", "volume", "atmosphere"})
+        for (const char* value : {"s", "Cs", "P", "matrix 1", "\"text\"", "k"})
+            EXPECT_EQ(sends("\"send:" + std::string(kind) + ":x\"", value), "");
+    EXPECT_EQ(sends("\"send:surface:\"", "s"),
+              "error 1:107: \"send:surface:\" of gather names no parameter\n");
+    EXPECT_EQ(sends("\"send:volume:x\"", "s < t"),
+              "error 1:126: \"send:volume:x\" of gather has no value to send\n");
+    EXPECT_EQ(sends("\"send:volume:x\"", "printf(\"\")"),
+              "error 1:124: \"send:volume:x\" of gather has no value to send\n");
+    for (const char* kind : {"light", "imager", "x"})
+        EXPECT_THAT(sends("\"send:" + std::string(kind) + ":x\"", "s"),
+                    ::testing::StartsWith("warning 1:107: gather() knows no \"send:"));
+    EXPECT_THAT(in_surface("Ci = trace(P, N, \"send:surface:x\", 1);"),
+                ::testing::StartsWith("warning 1:84: trace() knows no \"send:surface:x\""));
+}
+
 /// As shaders for 3Delight, BMRT and PRMan have it.
 TEST(Analysis, FormsOfOtherRenderers) {
     EXPECT_EQ(in_surface("print(s); print(P); print(\"x\"); print(Cs); print(N * 2);"), "");

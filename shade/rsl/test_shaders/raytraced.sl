@@ -17,6 +17,15 @@ surface raytraced(float Kr = .5, eta = 1.5; uniform float samples = 16, maxdist 
     } else {
         soft += environment("sky.tx", dir);
     }
+    string sent = samples > 3 ? "send:volume:fog" : "send:surface:fog";
+    float weights[2] = {s, t}, grown[];
+    push(grown, s);
+    gather("", P, R, .1, samples, "surface:Ci", hitc, "send:surface:way", R, "send:surface:weights", weights,
+           "send:displacement:grown", grown, "send:atmosphere:map", "a.tx", sent, Cs) {
+        weights[0] += 1;
+        push(grown, t);
+        soft += hitc;
+    }
     uniform float depth = 0;
     rayinfo("depth", depth);
     if (raylevel() > 2 || depth > 3) return;
