@@ -126,11 +126,19 @@ RayArguments::RayArguments(vm::Run& run, const vm::Step& step, std::span<const v
     const size_t unnamed = step.op == Op::Gather ? 0 : 1, named = step.outputs - unnamed;
     for (size_t k = 0; k < named; ++k)
         outputs.push_back({registers.text_input(step, plain + k), &operands[unnamed + k]});
-    const std::pair<std::string_view, LaneValue*> known[] = {
-        {"samples", &samples_},        {"minsamples", &min_samples_},       {"bias", &bias},
-        {"maxdist", &max_distance_},   {"coneangle", &cone_angle_},         {"falloff", &falloff},
-        {"samplecone", &sample_cone_}, {"falloffmode", &falloff_mode},      {"samplebase", &sample_base},
-        {"pointbased", &point_based},  {"maxsolidangle", &max_solid_angle}, {"clamp", &clamp}};
+    const std::pair<std::string_view, LaneValue*> known[] = {{"samples", &samples_},
+                                                             {"minsamples", &min_samples_},
+                                                             {"bias", &bias},
+                                                             {"maxdist", &max_distance_},
+                                                             {"coneangle", &cone_angle_},
+                                                             {"falloff", &falloff},
+                                                             {"samplecone", &sample_cone_},
+                                                             {"falloffmode", &falloff_mode},
+                                                             {"samplebase", &sample_base},
+                                                             {"pointbased", &point_based},
+                                                             {"maxsolidangle", &max_solid_angle},
+                                                             {"clamp", &clamp},
+                                                             {"blur", &blur_}};
     V3f threshold;
     for (size_t i = end + named; i + 1 < step.count; i += 2) {
         const std::string& name = registers.text(registers.register_of(step, i));
@@ -197,8 +205,9 @@ bool RayArguments::sets(std::string_view name) const {
 }
 
 float RayArguments::sample_cone_at(size_t lane) const {
-    const float angle = sample_cone_.at(lane);
-    return angle > 0 ? std::min(angle, kStraightAngle) : 0;
+    const bool blurs = !sample_cone_.operand;
+    const float angle = blurs ? blur_.at(lane) : sample_cone_.at(lane);
+    return angle > 0 ? std::min(angle, blurs ? kStraightAngle / 2 : kStraightAngle) : 0;
 }
 float RayArguments::cone_angle_at(size_t lane) const {
     const float angle = cone_angle_.at(lane);

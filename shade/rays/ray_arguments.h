@@ -31,7 +31,7 @@ struct RayArguments {
         size_t lane) const;  ///< a direction, a normal or the second point; of shadow(), to the light
     /// "samples", or "minsamples" where that is more; at least 1, of gather() 0 where it asks for less.
     int samples_at(size_t lane) const;
-    /// Of "samplecone", the half angle of the cone over which rays are spread.
+    /// Of "samplecone", or "blur" without it, the half angle of the cone over which rays are spread.
     float sample_cone_at(size_t lane) const;
     /// Of "coneangle", the half angle of the part of the sky that is looked at; of gather() the angle that it
     /// is given.
@@ -78,7 +78,7 @@ struct RayArguments {
     std::string_view map_;
     RayFilter filter_;
     bool filters_ = false;
-    LaneValue samples_, min_samples_, sample_cone_, cone_angle_, max_distance_;
+    LaneValue samples_, min_samples_, sample_cone_, blur_, cone_angle_, max_distance_;
 };
 
 }  // namespace trapeze

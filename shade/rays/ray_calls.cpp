@@ -115,7 +115,7 @@ namespace {
 
 /// Sums over a lane's rays, for what is set besides the result.
 struct LaneSums {
-    V3f sky{0, 0, 0}, open_way{0, 0, 0};
+    V3f sky{0, 0, 0}, open_way{0, 0, 0}, through{0, 0, 0};
     float hidden = 0, way = 0;
     size_t hits = 0;  ///< of the rays; `way` is how far they go
 
@@ -128,6 +128,11 @@ struct LaneSums {
             if (output.name == "hitdist")
                 trapeze::put(*output.operand, lane,
                              V3f(hits > 0 ? way / static_cast<float>(hits) : kInfinity));
+            if (output.name == "transmission") {
+                const V3f part = rays > 0 ? through / count : V3f(1, 1, 1);
+                const bool one = output.operand->stride == 0;
+                trapeze::put(*output.operand, lane, one ? V3f((part.x + part.y + part.z) / 3) : part);
+            }
         }
     }
 };
@@ -191,6 +196,7 @@ void RayCalls::tell(const Call& call, const Operand& out, std::span<const RayLan
             if (!sent.followed) continue;
             if (!sent.sky.empty()) sums.sky += sent.sky[ray];
             sums.open_way += one.segment.direction * ((one.through.x + one.through.y + one.through.z) / 3);
+            sums.through += one.through;
             sums.hidden += hidden_by(one, arguments, lane);
             if (one.hits()) sums.way += one.told_distance(), ++sums.hits;
         }
@@ -317,12 +323,18 @@ Task<bool> RayCalls::follow(const Call& call, std::span<WalkedRay> rays) const {
     const bool too_deep = asker_.is_too_deep(ask.kind);
     ask.shades = !too_deep;
     if (op == Op::Trace && !call.colors) {
-        walk.distance(rays, ask);
+        if (arguments.sets("transmission"))
+            co_await walk.transmission(rays, ask, true);
+        else
+            walk.distance(rays, ask);
         co_return true;
     }
     if (op == Op::Trace || op == Op::Environment || op == Op::IndirectDiffuse) {
-        if (!too_deep) co_await walk.radiance(rays, ask);
-        co_return !too_deep;
+        const bool asks = op == Op::Trace && !arguments.outputs.empty();
+        if (!too_deep || asks) co_await walk.radiance(rays, ask);
+        if (too_deep)
+            for (WalkedRay& ray : rays) ray.seen = V3f(0, 0, 0);
+        co_return !too_deep || asks;
     }
     const bool by_distance = op == Op::Occlusion && (arguments.falloff.operand || arguments.sets("hitdist"));
     co_await walk.transmission(rays, ask, by_distance);

@@ -162,6 +162,8 @@ std::vector<BuiltinCase> asking_cases() {
         // Rays miss everything.
         {"color c = trace(P, vector (X, 0, 1)); r = K(c) + X;", TRAPEZE_GIVES(x)},
         {"float d = trace(P, vector (X, 0, 1)); r = d > 1e29 ? X : -1;", TRAPEZE_GIVES(x)},
+        {"float d = 0; color t = 0, c = trace(P, N, d, \"transmission\", t); r = d > 1e29 ? K(t) + X : -1;",
+         TRAPEZE_GIVES(111 + x), 1e-4},
         {"r = K(transmission(P, point (X, Y, 9))) + X;", TRAPEZE_GIVES(111 + x), 1e-4},
         {"color c = visibility(P, point (X, Y, 9)); r = K(c) + X;", TRAPEZE_GIVES(111 + x), 1e-4},
         {"float c = visibility(P, point (X, Y, 9)); r = c + X;", TRAPEZE_GIVES(1 + x)},

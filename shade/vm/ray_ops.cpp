@@ -20,6 +20,11 @@ void miss(Run& run, const Step& step, std::span<const Operand> operands) {
     const float value = step.op == Op::Trace && width == 1 ? 1e30f : open ? 1.0f : 0.0f;
     const std::array<float, 3> values{value, value, value};
     fill_operand(run, operands[0], std::span(values).first(static_cast<size_t>(width)));
+    for (size_t k = 1; step.op == Op::Trace && k < step.outputs; ++k) {  // behind P and R come their names
+        const bool is_way = run.registers().text_input(step, k + 1) == "hitdist";
+        const float told = is_way ? 1e30f : 1.0f;
+        fill_operand(run, operands[k], std::array{told, told, told});
+    }
 }
 
 /// Trace, Transmission, Visibility, and what look_over_sky() leaves over; shade/rays tells them apart by

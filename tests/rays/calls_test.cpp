@@ -110,6 +110,29 @@ TEST(RayArguments, SamplesFillTheirCone) {
         1e-6f, 64 * 64);
 }
 
+/// "blur" is the half angle where no "samplecone" is given, up to a right angle.
+TEST(RayArguments, BlurSpreadsRays) {
+    Case c;
+    c.things = "Surface \"constant\" Translate 0 0 3 Disk 0 .302270 360 ";  // 2 tan .15
+    const double share = (1 - std::cos(0.15)) / (1 - std::cos(0.3));
+    const std::string from = "point o = point(0, 0, 5) + 0 * P; vector w = vector(0, 0, -5); ";
+    const std::string given = ", \"samples\", 64, \"blur\", .3";
+    for (const std::string call : {"color trace(o, w", "1 - transmission(o, o + w"}) {
+        EXPECT_NEAR(mean_red(c.render(from + "Ci = " + call + given + ");")), share, 2e-3) << call;
+        EXPECT_EQ(mean_red(c.render(from + "Ci = " + call + given + ", \"samplecone\", 0);")), 1) << call;
+        EXPECT_NEAR(mean_red(c.render(from + "Ci = " + call + given + ", \"samplecone\", .2);")),
+                    (1 - std::cos(0.15)) / (1 - std::cos(0.2)), 2e-3);
+    }
+    c.things = "Surface \"constant\" " + wall("3");
+    // Of P, a point in the middle of a vertex' sky: the wall's edges are seen under 3 in 2.
+    const std::string seen = "Ci = environment(\"raytrace\", vector(0, 0, -1) + 0 * s, \"samples\", 64, ";
+    EXPECT_EQ(mean_red(c.render(seen + "\"blur\", .5);")), 1);
+    EXPECT_LT(mean_red(c.render(seen + "\"blur\", 1.5);")), 0.99);
+    c.things = "Surface \"constant\" " + wall("7");  // behind
+    EXPECT_EQ(mean_red(c.render(seen + "\"blur\", 3);")), 0);
+    EXPECT_GT(mean_red(c.render(seen + "\"samplecone\", 3);")), 0.2);
+}
+
 TEST(RayArguments, MaxdistEndsRays) {
     Case c;
     c.things = "Surface \"constant\" " + wall("3");
@@ -248,23 +271,72 @@ TEST(RayArguments, HitdistIsHowFarTheHitsAre) {
                 0.011f, 1500);
 }
 
+/// What 3Delight's trace() sets: what is left of the light, and how far the first surface is. Behind two
+/// surfaces that let half and a quarter through an eighth is left.
+TEST(RayArguments, TraceSetsWhatIsLeftOfTheLight) {
+    Case c;
+    c.things = "Surface \"constant\" Opacity .75 .5 .25 " + wall("3") + "Opacity .5 .5 .5 " + wall("1");
+    const std::string w = "vector w = vector(0, 0, -1); color left = -1; float far = -1, some = -1; ";
+    const auto told = [&](const std::string& call, const std::string& found, const std::string& expected) {
+        SCOPED_TRACE(call + found);
+        expect_told(c.render(w + call + " Ci = told(" + found + ", " + expected + ", 1);"), 1e-6f, 64 * 64);
+    };
+    for (const std::string kind : {"color k = color trace(", "float k = float trace("}) {
+        const std::string named = kind + "P, w, \"transmission\", left);";
+        told(named, "comp(left, 0)", ".125");
+        told(named, "comp(left, 2)", ".375");
+        told(kind + "P, w, far, \"transmission\", some);", "some", ".25");
+        told(kind + "P, w, far, \"transmission\", some);", "far", "2");
+        told(kind + "P, w, \"hitdist\", far, \"maxdist\", 3);", "far", "2");
+        // Nothing is there; and a ray that leads nowhere.
+        told(kind + "P, -w, far, \"transmission\", left);", "comp(left, 1)", "1");
+        told(kind + "P, -w, far);", "far", "1e30");
+        told(kind + "P, 0 * w, far, \"transmission\", left);", "comp(left, 1)", "1");
+        told(kind + "P, w, far, \"transmission\", left, \"maxdist\", 3);", "comp(left, 0)", ".25");
+        // Of the vertices that ask.
+        told("left = .25; if (xcomp(P) > 0) { " + kind + "P, w, far, \"transmission\", left); }",
+             "comp(left, 0)", "xcomp(P) > 0 ? .125 : .25");
+    }
+    told("far = trace(P, w, some, \"transmission\", left);", "far - some", "0");
+    // The mean of rays, of which half miss.
+    c.things = "Surface \"constant\" Patch \"bilinear\" \"P\" [0 6 3 6 6 3 0 -6 3 6 -6 3] ";
+    const Image image =
+        c.render(w +
+                 "color k = trace(P, w, \"samplecone\", 1, \"samples\", 64, \"transmission\", "
+                 "left); Ci = told(comp(left, 1), 1 - comp(k, 1), 1);");
+    expect_told(image, 1e-6f, 64 * 64);
+}
+
+/// What is deeper than rays go is hit, and black.
+TEST(RayArguments, TraceSetsWhatIsLeftWhereRaysAreTooDeep) {
+    Case c;
+    c.things = "Surface \"constant\" Opacity .5 .5 .5 " + wall("3");
+    c.asker = "Attribute \"trace\" \"int maxspeculardepth\" 0 ";
+    const std::string call =
+        "float far = -1; color left = -1, k = trace(P, vector(0, 0, way), far, \"transmission\", left); ";
+    expect_told(c.render("float way = -1; " + call + "Ci = told(comp(left, 0), .5, 1);"), 1e-6f, 64 * 64);
+    expect_told(c.render("float way = -1; " + call + "Ci = told(far + comp(k, 0), 2, 1);"), 1e-5f, 64 * 64);
+    expect_told(c.render("float way = 1; " + call + "Ci = told(comp(left, 0), 1, 1);"), 0, 64 * 64);
+}
+
 TEST(RayArguments, AbsurdOnesDoNoHarm) {
     Case c;
     c.things = "Surface \"constant\" " + wall("3");
     const std::string odd =
         "float nan = 1e30 * (2 + s); nan *= nan; nan -= nan; vector w = vector(0, 0, -1);";
-    for (const char* value : {"-1", "0", "nan", "1e-30", "-1e30"})
-        for (const char* name :
-             {"samples", "samplecone", "maxdist", "bias", "coneangle", "falloff", "maxerror", "minsamples"}) {
-            const std::string more = std::string(", \"") + name + "\", " + value + ");";
-            for (const std::string call :
-                 {"color k = trace(P, w", "color k = transmission(P, point(0, 0, 0)",
-                  "color k = occlusion(P, w, 2", "color k = indirectdiffuse(P, w, 2"})
-                for (const Pixel& p : pixels(c.render(odd + call + more + "Ci = k;"))) {
+    for (const std::string call :
+         {"trace(P, w", "transmission(P, point(0, 0, 0)", "occlusion(P, w, 2", "indirectdiffuse(P, w, 2"}) {
+        const bool over_sky = call.ends_with("2");
+        for (const char* value : {"-1", "0", "nan", "1e-30", "-1e30"})
+            for (const char* name : {"samples", over_sky ? "coneangle" : "samplecone", "maxdist", "bias",
+                                     over_sky ? "maxdist" : "blur", "maxerror", "minsamples"}) {
+                const std::string more = std::string(", \"") + name + "\", " + value + ");";
+                for (const Pixel& p : pixels(c.render(odd + "color k = " + call + more + "Ci = k;"))) {
                     ASSERT_GE(p.red, 0) << call << more;
                     ASSERT_LE(p.red, 1) << call << more;
                 }
-        }
+            }
+    }
 }
 
 // Moving and displaced things.

@@ -113,6 +113,38 @@ TEST(RayShaders, StandardLightsTraceTheirShadows) {
         0, 3000);
 }
 
+/// Their "blur" is the half angle of the cone over which rays to the light are spread: a ball that is seen
+/// under another angle hides all, nothing, or where its rim goes through the cone's middle about half of it.
+TEST(RayShaders, StandardLightsBlurTheirShadows) {
+    Case c;
+    c.things = "Surface \"constant\" " + sphere("0 0 3", ".3");
+    const std::string from = "\"from\" [.3 .2 0] ", to = "\"to\" [.3 .2 5] ";
+    for (const auto& [light, shadow, way] :
+         {std::tuple("\"shadowpoint\" %d " + from, "\"sfpz\" \"raytrace\" \"blur\" .05 ", "from - P"),
+          {"\"shadowspot\" %d " + from + to + "\"coneangle\" 1 ",
+           "\"shadowname\" \"raytrace\" \"blur\" .05 \"samples\" 64 ", "from - P"},
+          {"\"shadowdistant\" %d \"from\" [0 0 0] \"to\" [0 0 1] ",
+           "\"shadowname\" \"raytrace\" \"blur\" .05 ", "vector(0, 0, -1)"},
+          {"\"uberlight\" %d \"width\" 9 \"height\" 9 ", "\"shadowmap\" \"raytrace\" \"shadowblur\" .05 ",
+           "from - P"}}) {
+        SCOPED_TRACE(light);
+        const std::string open = std::string(light).replace(light.find("%d"), 2, "2");
+        const std::string shaded = std::string(light).replace(light.find("%d"), 2, "1") + shadow;
+        const bool placed = light.find("uber") != std::string::npos;
+        c.asks = std::string("TransformBegin ") + (placed ? "Translate .3 .2 0 " : "") + "LightSource " +
+                 shaded + " LightSource " + open + " TransformEnd " + kAsker;
+        const std::string asks =
+            "point from = point(.3, .2, 0); vector way = normalize(" + std::string(way) +
+            "), m = point(0, 0, 3) - P; float off = acos(way . normalize(m)) - asin(.3 / length(m)), "
+            "lit = -1, all = 0; illuminance(P) { if (lit < 0) lit = comp(Cl, 0); else all = comp(Cl, 0); }";
+        // The uberlight's surface is its plane, so that its rays may begin elsewhere.
+        expect_told(c.render(asks + "Ci = told(lit / all, off > 0 ? 1 : 0, abs(off) > .054 ? 1 : 0);"), 1e-5f,
+                    1500);
+        const Image rim = c.render(asks + "Ci = told(lit / all, .5, abs(off) < .004 ? 1 : 0);");
+        expect_told(rim, .2f, 20, .5f);
+    }
+}
+
 /// In an illuminance block the light of the turn casts the shadow: from where it is, past nothing behind it,
 /// or from infinitely far.
 TEST(RayShaders, ShadowsOfSurfacesAreOfTheLightOfTheTurn) {

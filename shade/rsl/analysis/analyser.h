@@ -149,6 +149,7 @@ class Analyser {
     bool becomes_as_it_is(const Signature::Parameter& parameter, const Expression& argument) const;
     /// From here on: messages about calls that fit nothing, and what follows from one that fits.
     bool lacks_knots(const Expression& call);
+    bool sets_distance(const Expression& call);
     void write_as_known(Expression& call);
     void explain(std::vector<Signature> all, const Expression& call);
     void unknown_function(const Expression& call);

@@ -258,19 +258,65 @@ TEST(Analysis, ArgumentsOfRaysWithoutEffectAreNamed) {
     EXPECT_EQ(traced("\"raytype\", \"diffuse\", \"weight\", Cs"),
               "warning 1:84: \"raytype\" of trace() has no effect\n"
               "warning 1:106: \"weight\" of trace() has no effect\n");
-    for (const char* output : {"transmission", "radiosity", "surfacecolor", "occlusion", "hitdist"})
+    for (const char* output : {"radiosity", "surfacecolor", "occlusion", "environmentdir"})
         EXPECT_EQ(traced("\"" + std::string(output) + "\", Ci"),
                   "warning 1:84: \"" + std::string(output) + "\" of trace() has no effect\n");
     EXPECT_NE(in_surface("gather(\"x\", P, N, .1, 4, \"weight\", 1) ;"), "");
     const auto reflected = [](const std::string& given) {
         return in_surface("Ci = environment(\"raytrace\", N, " + given + ");");
     };
+    EXPECT_EQ(reflected("\"sblur\", .1"),
+              "warning 1:99: \"sblur\" of environment() has no effect on rays, which \"blur\" spreads\n");
+    EXPECT_NE(reflected("\"tblur\", u"), "");
+    EXPECT_EQ(reflected("\"sblur\", 0, \"width\", 2, \"blur\", u"), "");
     EXPECT_EQ(
-        reflected("\"blur\", .1"),
-        "warning 1:99: \"blur\" of environment() has no effect on rays, which \"samplecone\" spreads\n");
-    EXPECT_NE(reflected("\"sblur\", u"), "");
-    EXPECT_EQ(reflected("\"blur\", 0, \"width\", 2"), "");
+        in_surface("Ci = transmission(P, P + N, \"blur\", .1) * shadow(\"raytrace\", P, \"blur\", .1);"), "");
     EXPECT_EQ(in_surface("Ci = environment(\"a\", N, \"blur\", .1, \"x\", 1);"), "");
+}
+
+/// The others of a name would be deaf to it.
+TEST(Analysis, ArgumentsOfRaysAreThoseOfTheirCall) {
+    const auto deaf = [](const std::string& call, const std::string& names) {
+        std::string said = in_surface("color c = 0; float d = 0; " + call);
+        std::string heard;
+        for (size_t at; (at = said.find(": \"")) != std::string::npos;) {
+            said.erase(0, at + 3);
+            heard += said.substr(0, said.find('"')) + " ";
+        }
+        EXPECT_EQ(heard, names) << call;
+    };
+    const std::string all =
+        ", \"blur\", .1, \"samplecone\", .1, \"coneangle\", 1, \"distribution\", \"uniform\", \"environmentmap\", \"a\", "
+        "\"environmentspace\", \"world\", \"falloff\", 1, \"falloffmode\", 1, \"pointbased\", 0, \"filename\", "
+        "\"\", \"coordsystem\", \"\", \"maxsolidangle\", 1, \"clamp\", 1, \"hitdist\", d, \"occlusion\", d, "
+        "\"transmission\", c, \"samples\", 4, \"bias\", 0, \"label\", \"x\", \"othreshold\", color(0))";
+    const std::string of_sky = "pointbased filename coordsystem maxsolidangle clamp ";
+    deaf("c = trace(P, N" + all + ";", "coneangle distribution falloff falloffmode " + of_sky + "occlusion ");
+    deaf("c = transmission(P, P + N" + all + ";",
+         "coneangle distribution environmentmap environmentspace falloff falloffmode " + of_sky +
+             "hitdist occlusion transmission ");
+    deaf("c = occlusion(P, N, 4" + all + ";", "blur samplecone transmission ");
+    deaf("c = indirectdiffuse(P, N, 4" + all + ";", "blur samplecone falloff falloffmode transmission ");
+    deaf("c = environment(\"raytrace\", N" + all + ";",
+         "coneangle distribution falloff falloffmode " + of_sky + "hitdist occlusion transmission ");
+    deaf("d = shadow(\"raytrace\", P" + all + ";",
+         "coneangle distribution environmentmap environmentspace falloff falloffmode " + of_sky +
+             "hitdist occlusion transmission ");
+    deaf("gather(\"\", P, N, .1, 4" + all + " ;",
+         "blur samplecone environmentmap environmentspace falloff falloffmode " + of_sky +
+             "hitdist occlusion transmission ");
+    EXPECT_NE(in_surface("Ci = transmission(P, P + N, \"x\", 1);").find("\"maxdist\", \"othreshold\""),
+              std::string::npos);
+}
+
+TEST(Analysis, TraceSetsADistance) {
+    EXPECT_EQ(
+        in_surface("float d = 0, a[2] = {1, 2}; color c = 0; Ci = trace(P, N, d); d = trace(P, N, a[1], "
+                   "\"samples\", 4, \"transmission\", c); Ci *= trace(P, N, d, \"transmission\", d);"),
+        "");
+    // What cannot be set is none.
+    EXPECT_NE(in_surface("Ci = trace(P, N, 5);"), "");
+    EXPECT_NE(in_surface("Ci = trace(P, N, Cs, \"samples\", 4);"), "");
 }
 
 TEST(Analysis, GlobalsAreMadeWhenNamed) {

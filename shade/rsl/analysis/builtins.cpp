@@ -336,7 +336,9 @@ constexpr Builtin kBuiltins[] = {
 
 /// Names among the optional arguments of occlusion() and indirectdiffuse() that are followed by a variable to
 /// be set.
-constexpr std::string_view kRayOutputs[] = {"environmentcolor", "environmentdir", "hitdist", "occlusion"};
+constexpr std::string_view kSkyOutputs[] = {"environmentcolor", "environmentdir", "hitdist", "occlusion"};
+/// Likewise of trace().
+constexpr std::string_view kTraceOutputs[] = {"hitdist", "transmission"};
 /// Arguments of texture3d() that are no channels.
 constexpr std::string_view kCloudInputs[] = {"coordsystem", "filterradius", "filterscale", "maxdepth",
                                              "lerp"};
@@ -372,8 +374,9 @@ std::span<const Builtin> builtins_named(std::string_view name) {
 
 bool sets_by_name(const Builtin& builtin, std::string_view name) {
     if (builtin.op == Op::Texture3d) return std::ranges::find(kCloudInputs, name) == std::end(kCloudInputs);
+    if (builtin.op == Op::Trace) return std::ranges::find(kTraceOutputs, name) != std::end(kTraceOutputs);
     const bool may = builtin.op == Op::Occlusion || builtin.op == Op::IndirectDiffuse;
-    return may && std::ranges::find(kRayOutputs, name) != std::end(kRayOutputs);
+    return may && std::ranges::find(kSkyOutputs, name) != std::end(kSkyOutputs);
 }
 
 }  // namespace trapeze::rsl

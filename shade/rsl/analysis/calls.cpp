@@ -153,11 +153,25 @@ Choices Analyser::call_types(Expression& e) {
     return Choices::unknown();
 }
 
+/// Whether a call is trace(P, R, distance, ...) of 3Delight, and of no function of the source.
+bool Analyser::sets_distance(const Expression& call) {
+    if (call.children.size() < 3 || candidates(call).front().function) return false;
+    Expression& third = *call.children[2];
+    possible_types_once(third);
+    return is_place(third) && third.type == Type{Base::Float};
+}
+
 /// Calls of other renderers' forms become those that are known: print(x) of its type's printf(),
-/// specularstd() of 3Delight, whose exponent is not eight times as large, and the points behind the "source"
-/// of a shadow are left out, as for a source that is a point.
+/// specularstd() of 3Delight, whose exponent is not eight times as large, the distance that its trace() sets
+/// gets a name, and the points behind the "source" of a shadow are left out, as for a source that is a point.
 void Analyser::write_as_known(Expression& call) {
     std::vector<ExpressionPtr>& arguments = call.children;
+    if (call.text == "trace" && arguments.size() % 2 == 1 && sets_distance(call)) {
+        auto name = std::make_unique<Expression>();
+        name->kind = Expression::Kind::Text, name->at = arguments[2]->at;
+        name->text = "hitdist";
+        arguments.insert(arguments.begin() + 2, std::move(name));
+    }
     if (call.text == "print" && arguments.size() == 1 && candidates(call).empty()) {
         const Choices type = possible_types_once(*arguments[0]);
         auto format = std::make_unique<Expression>();
