@@ -150,10 +150,8 @@ void PointBasedCall::add(const SurfelPiece& piece, const SurfelPlace& place, siz
     if (sides != Sides::Back) seen.front = piece.front / distance2;
     if (sides != Sides::Front) seen.back = piece.back / distance2;
     if (!(seen.front > 0) && !(seen.back > 0)) return;
-    if (step_.op == Op::IndirectDiffuse)
-        seen.color = tree_->radiosity(piece);
-    else
-        seen.counts = arguments_.falloff_at(piece.distance / scale_, lane);
+    seen.counts = arguments_.falloff_at(piece.distance / scale_, lane);
+    if (step_.op == Op::IndirectDiffuse) seen.color = tree_->radiosity(piece) * seen.counts;
     if (piece.is_large && !tree_->surfels().quads.empty())
         raster.add_quad(tree_->quad_from(place.position, piece.number), tree_->surfels().areas[piece.number],
                         seen);

@@ -221,6 +221,10 @@ Task<RayCalls::LaneRays> RayCalls::rays_of(const Call& call, std::span<const Ray
     }
     sent.followed = co_await follow(call, sent.rays);
     const RayArguments& arguments = call.arguments;
+    const bool fades = call.step.op == Op::IndirectDiffuse && arguments.falloff.operand;
+    for (size_t i = 0, ray = 0; fades && i < lanes.size(); ++i)
+        for (; ray < sent.ends[i]; ++ray)
+            sent.rays[ray].seen *= arguments.falloff_at(sent.rays[ray].distance, lanes[i].lane);
     if (!sent.followed || arguments.environment_map.empty() || lanes.empty()) co_return sent;
     std::vector<V3f> directions;
     std::vector<float> widths;

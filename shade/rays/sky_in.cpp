@@ -1,5 +1,7 @@
 #include "shade/rays/sky_in.h"
 
+#include <fmt/format.h>
+
 #include <optional>
 
 namespace trapeze {
@@ -9,9 +11,13 @@ std::vector<V3f> sky_in(vm::Run& run, const vm::Step& step, std::string_view map
     std::vector<V3f> colors(directions.size(), V3f(0, 0, 0));
     const vm::Context& context = run.context();
     if (!context.maps || map.empty()) return colors;
-    if (!space.empty() && context.spaces)
+    if (!space.empty() && context.spaces) {
         if (const std::optional<M44f> to = context.spaces->matrix("current", space))
             for (V3f& direction : directions) to->multDirMatrix(V3f(direction), direction);
+        else
+            run.warn(step, fmt::format("\"environmentspace\": there is no coordinate system \"{}\"", space),
+                     fmt::format("rsl-environment-space {}", space));
+    }
     context.maps->sky(map, step.at, directions, widths, colors);
     return colors;
 }

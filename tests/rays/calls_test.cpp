@@ -211,6 +211,15 @@ TEST(RayArguments, FalloffDimsWhatIsFar) {
     expect_told(c.render(call + ".25, \"falloffmode\", 0), exp(-.5), 1);"), 1e-4f, 64 * 64);
     expect_told(c.render(call + "1, \"falloffmode\", 1, \"maxdist\", 8), .75, 1);"), 1e-4f, 64 * 64);
     expect_told(c.render(call + "3, \"falloffmode\", 1, \"maxdist\", 8), .421875, 1);"), 1e-4f, 64 * 64);
+    // Colours likewise, and what of them is told to be hidden.
+    c.things = "Surface \"constant\" " + wall("3");
+    const std::string given = "P, normal(0, 0, -1), 16, \"coneangle\", .01, \"falloff\", 1";
+    expect_told(c.render("color k = indirectdiffuse(" + given + "); Ci = told(comp(k, 1), exp(-2), 1);"),
+                1e-4f, 64 * 64);
+    expect_told(c.render("float hides = 0; color k = indirectdiffuse(" + given +
+                         ", \"falloffmode\", 1, \"maxdist\", 8, \"occlusion\", hides);"
+                         "Ci = told(comp(k, 1) + hides, 1.5, 1);"),
+                1e-4f, 64 * 64);
 }
 
 TEST(RayArguments, ExcludesubsetLeavesGroupsOut) {
@@ -329,7 +338,7 @@ TEST(RayArguments, AbsurdOnesDoNoHarm) {
         const bool over_sky = call.ends_with("2");
         for (const char* value : {"-1", "0", "nan", "1e-30", "-1e30"})
             for (const char* name : {"samples", over_sky ? "coneangle" : "samplecone", "maxdist", "bias",
-                                     over_sky ? "maxdist" : "blur", "maxerror", "minsamples"}) {
+                                     over_sky ? "falloff" : "blur", "maxerror", "minsamples"}) {
                 const std::string more = std::string(", \"") + name + "\", " + value + ");";
                 for (const Pixel& p : pixels(c.render(odd + "color k = " + call + more + "Ci = k;"))) {
                     ASSERT_GE(p.red, 0) << call << more;

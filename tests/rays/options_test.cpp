@@ -370,6 +370,9 @@ TEST_F(RaySky, IsOfItsSpace) {
     expect("0, 0, -1", "over", 1, 0.01);
     expect("1, 0, 0", "", 0.5, 0.01);
     expect("0, 0, 1", "aside", 0.5, 0.01);
+    c.may_say = "rsl-environment-space nowhere", c.said.clear();
+    expect("0, 0, 1", "nowhere", 1, 0.01);
+    EXPECT_EQ(c.said.size(), 1u);
 }
 
 /// A map's mean about a direction, without rays.

@@ -132,6 +132,13 @@ TEST(PointBased, DistancesCount) {
             kBall)[32 * 64 + 32];
         EXPECT_LT(far.green, .8f * far.red);
         EXPECT_NEAR(far.green, far.blue, .1f * far.blue);
+        // Colours likewise.
+        const std::string of_scene = "indirectdiffuse(P, up, 4096, \"pointbased\", ";
+        const Pixel seen = scene.asks("color(comp(" + of_scene + "1), 1), comp(" + of_scene + "1, " +
+                                          falloff + "), 1), comp(" + of_scene + "0, " + falloff + "), 1))",
+                                      "Surface \"constant\" " + kBall)[32 * 64 + 32];
+        EXPECT_LT(seen.green, .8f * seen.red);
+        EXPECT_NEAR(seen.green, seen.blue, .1f * seen.blue);
     }
 }
 

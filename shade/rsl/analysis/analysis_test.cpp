@@ -296,7 +296,7 @@ TEST(Analysis, ArgumentsOfRaysAreThoseOfTheirCall) {
          "coneangle distribution environmentmap environmentspace falloff falloffmode " + of_sky +
              "hitdist occlusion transmission ");
     deaf("c = occlusion(P, N, 4" + all + ";", "blur samplecone transmission ");
-    deaf("c = indirectdiffuse(P, N, 4" + all + ";", "blur samplecone falloff falloffmode transmission ");
+    deaf("c = indirectdiffuse(P, N, 4" + all + ";", "blur samplecone transmission ");
     deaf("c = environment(\"raytrace\", N" + all + ";",
          "coneangle distribution falloff falloffmode " + of_sky + "hitdist occlusion transmission ");
     deaf("d = shadow(\"raytrace\", P" + all + ";",
