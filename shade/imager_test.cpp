@@ -106,6 +106,22 @@ TEST(Imager, WhatIsNotFiniteBecomesZero) {
     EXPECT_EQ(imaged(scene, {1, 0, 1, 0.5f}), (Pixels{0, 0, 0, 0.5f}));
 }
 
+TEST(Imager, SendsNoRays) {
+    for (const char* asks :
+         {"Ci = trace(P, vector(0, 0, 1));", "Ci = 1 - transmission(P, P + vector(0, 0, 1));",
+          "Ci = occlusion(P, normal(0, 0, 1), 4);",
+          "Ci = 0; gather(\"\", P, vector(0, 0, 1), 0, 4) Ci = 1;"}) {
+        ShadingScene scene;
+        const ShaderFolder folder;
+        folder.write("sees", std::string("imager sees() { ") + asks + " }");
+        scene.scene.options.search_paths["shader"] = {folder.path()};
+        set_imager(scene, "sees");
+        EXPECT_EQ(imaged(scene, {1, 0, 1, 0.5f, 1, 0, 1, 1}), (Pixels{0, 0, 0, 0.5f, 0, 0, 0, 1}));
+        ASSERT_EQ(scene.reported.size(), 1u) << asks;
+        EXPECT_EQ(scene.reported[0].kind, "rsl-imager-rays");
+    }
+}
+
 TEST(Imager, OneThatIsNotThereIsAnErrorAndOneOfAnotherKindToo) {
     ShadingScene scene;
     EXPECT_FALSE(Imager(scene.context).is_there());

@@ -58,6 +58,7 @@ void BakeCall::take_named(Run& run, size_t i) {
         const std::string& text = registers.text(registers.register_of(step_, i + 2));
         if (name == "coordsystem") set_space(run, text);
         if (name == "format") ascii_ = text == "ascii";
+        if (name != "coordsystem" && name != "format") take_value(run, name, type, value);
         return;
     }
     if (type == "float" && name == "interpolate")
@@ -72,7 +73,7 @@ void BakeCall::take_named(Run& run, size_t i) {
 
 void BakeCall::take_value(Run& run, const std::string& name, const std::string& type,
                           const Operand& operand) {
-    ChannelType channel = ChannelType::Matrix;
+    ChannelType channel = ChannelType::Matrix;  // texts and arrays stay it, too
     channel_type_named(type, &channel);
     const bool known = std::ranges::any_of(values_, [&](const Value& v) { return v.channel.name == name; });
     if (channel != ChannelType::Matrix && is_channel_name(name) && !known && values_.size() < kMostChannels)

@@ -49,6 +49,9 @@ WaitingOp find_waiting_map_op(rsl::Op op);
 WaitingOp find_light_op(rsl::Op op);
 WaitingOp find_waiting_ray_op(rsl::Op op);
 
+/// Says that a call of an imager sends no rays: it finds what there is where there is nothing.
+void warn_of_no_rays(Run& run, const Step& step);
+
 /// Floats in a plane of an operand.
 inline size_t plane_size(const Run& run, const Operand& operand) {
     return operand.lane_mask ? run.lanes() : kLanes;

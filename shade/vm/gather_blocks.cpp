@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "shade/operations/op_table.h"
+#include "shade/vm/context_ops.h"
 #include "shade/vm/machine.h"
 
 namespace trapeze::vm {
@@ -44,6 +45,7 @@ std::unique_ptr<GatherTurns> Run::gather_turns(const Step& step) {
         return std::make_unique<RaysIntoNothing>(lanes(), 0.0f);
     }
     if (context_.rays) return context_.rays->gather(*this, step, operands);
+    warn_of_no_rays(*this, step);
     return std::make_unique<RaysIntoNothing>(lanes(), at(registers_.input(step, kSamples), 0, 0));
 }
 

@@ -15,6 +15,7 @@ using rsl::Op;
 /// the distance to what is hit, and 1e30 says that nothing is; transmission() and visibility() are how much
 /// gets through, and so 1.
 void miss(Run& run, const Step& step, std::span<const Operand> operands) {
+    warn_of_no_rays(run, step);
     const bool open = step.op == Op::Transmission || step.op == Op::Visibility;
     const int width = operands[0].stride ? 3 : 1;
     const float value = step.op == Op::Trace && width == 1 ? 1e30f : open ? 1.0f : 0.0f;
@@ -126,6 +127,12 @@ constexpr WaitingRow kWaitingRayRows[] = {
 };
 
 }  // namespace
+
+void warn_of_no_rays(Run& run, const Step& step) {
+    if (run.registers().program().kind == rsl::ShaderKind::Imager)
+        run.warn(step, "imagers send no rays: nothing is there to be seen or to hide anything",
+                 "rsl-imager-rays");
+}
 
 ContextOp find_ray_op(Op op) {
     return context_op_in(kRayRows, op);

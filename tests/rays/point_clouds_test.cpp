@@ -299,6 +299,7 @@ TEST(PointClouds, MistakesAreSaidOnce) {
     expect_said("bake3d(\"\", \"\", P, Nn);", "", "the name of the file is empty");
     expect_said("bake3d(file, \"\", P, Nn);", "", "cannot be written: it");
     expect_said("bake3d(file, \"\", P, Nn, \"two words\", 1);", "a.ptc", "\"two words\" is no channel");
+    expect_said("bake3d(file, \"\", P, Nn, \"_text\", \"a\");", "a.ptc", "\"_text\" is no channel");
     expect_said("bake3d(file, \"_a,_b\", P, Nn, \"_a\", 1);", "a.ptc", "no value for the channel \"_b\"");
     expect_said("bake3d(file, \"\", P, Nn, \"coordsystem\", \"nowhere\");", "a.ptc",
                 "no coordinate system \"nowhere\"");

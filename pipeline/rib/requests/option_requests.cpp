@@ -283,6 +283,15 @@ bool is_text(RequestReport& report, const Parameter& value) {
     return false;
 }
 
+/// Option "trace" "maxdepth": bounces of rays.
+int ray_depth(RequestReport& report, float given) {
+    const auto depth = static_cast<int>(std::clamp(given, 0.0f, kMostRayDepth));
+    if (given > kMostRayDepth)
+        report.warn_once("\"maxdepth\" of rays is at most " + std::to_string(depth) + ", which is taken",
+                         "ray-depth");
+    return depth;
+}
+
 /// Option category parameters: kept for shaders too, like attributes; a colour transfer that is not known is
 /// not kept.
 void option(OptionContext& r, ArgumentCursor& c) {
@@ -299,7 +308,7 @@ void option(OptionContext& r, ArgumentCursor& c) {
         if (!is_executed && !recognises_option(category, value.name))
             r.report.count_without_effect(' ' + in_quotes(category) + ' ' + in_quotes(value.name));
         if (category == "trace" && value.name == "maxdepth" && !value.floats.empty())
-            o.max_ray_depth = static_cast<int>(std::clamp(value.floats[0], 0.0f, kMostRayDepth));
+            o.max_ray_depth = ray_depth(r.report, value.floats[0]);
         if (category == "trace" && value.name == "levels" && !value.floats.empty())
             o.ray_levels = static_cast<int>(std::clamp(value.floats[0], 0.0f, float{kMostRayLevels}));
         o.user[category].set(value);
