@@ -46,8 +46,11 @@ bool same_uniforms(const LayeredShader* shader, const ShadingGrid& a, const Shad
 /// What a grid is seen through: rays have `left` a surface that may say so, which the hit's own does not
 /// know; else its atmosphere.
 const LayeredShader* volume_before(const ShadingGrid& grid, const Material& material, const Material* left) {
-    if (left) return grid.medium.inside ? left->interior : left->exterior;
-    return material.atmosphere;
+    if (!left) return material.atmosphere;
+    const bool inside = grid.medium.inside;
+    const LayeredShader* const part = inside ? left->interior_opacity : left->exterior_opacity;
+    if (grid.for_opacity && part) return part;
+    return inside ? left->interior : left->exterior;
 }
 
 /// Takes from a list the grids that can share a run of the shader with its first.
@@ -84,7 +87,7 @@ void see_displaced(bool moves_on, ShadingGrid& grid) {
 bool can_share_run(const Material& material, const Material* left, const ShadingGrid& a,
                    const ShadingGrid& b) {
     if (material.asks_object_space && a.primitive != b.primitive) return false;
-    if (a.medium != b.medium || a.own_colors != b.own_colors) return false;
+    if (a.medium != b.medium || a.own_colors != b.own_colors || a.is_end != b.is_end) return false;
     return same_uniforms(material.displacement, a, b) && same_uniforms(material.surface, a, b) &&
            same_uniforms(volume_before(a, material, left), a, b);
 }
@@ -126,7 +129,7 @@ Task<> GridRun::run_displacement() {
 
 Task<> GridRun::run(const AovLayout& aovs, const HitOutputs* asked) {
     Layers displaced, surface, atmosphere;
-    if (material_.displacement) displaced = co_await displace_seen();
+    if (material_.displacement && !grids_.front()->is_end) displaced = co_await displace_seen();
     if (grids_.front()->own_colors)
         set_own_colors();
     else
@@ -229,6 +232,7 @@ Task<vm::Registers*> GridRun::run_layer(const LayeredShader& shader, size_t laye
     surroundings.clouds = &clouds_;
     surroundings.lights = &scratch_.lights;
     surroundings.rays = rays_ ? &*rays_ : nullptr;
+    if (rays_) rays_->ask_within_medium(left_ && &shader == volume());
     surroundings.messages = &messages_;
     surroundings.diagnostics = context_.diagnostics;
     surroundings.near_clip = context_.camera.near_clip, surroundings.far_clip = context_.camera.far_clip;

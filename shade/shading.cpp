@@ -83,7 +83,8 @@ struct Shading::Impl {
           textures(render.scene->options, render.diagnostics, may, render.colors),
           clouds(render.scene->options, render.diagnostics, may),
           materials(render, may),
-          aovs(aov_layout(render.scene->options)) {
+          aovs(aov_layout(render.scene->options)),
+          volumes(render.scene->primitives) {
         make_samplers(materials, textures, render);
         if (render.diagnostics)
             report_missing_aovs(aovs, materials, render.scene->options, *render.diagnostics);

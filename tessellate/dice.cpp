@@ -82,7 +82,7 @@ class Dicer {
         grid_.hit_vertex = -1, grid_.hit_level = 0, grid_.hit_place.reset();
         grid_.hit_ray = RayFootprint();
         grid_.medium = {};
-        grid_.own_colors = false;
+        grid_.own_colors = grid_.is_end = false;
         grid_.shared_vertices.clear();
         if (!context_.displaced) grid_.border.clear();
         const size_t keys = surface_.key_count();

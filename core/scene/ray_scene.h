@@ -29,6 +29,8 @@ struct RayFilter {
     Sides sides = Sides::OfAttributes;
     RaySubset subset;
     RaySubset excluded;  ///< does not count, unless it names nothing
+    /// What has no Interior shader does not count, either; it may where it is a part of a solid.
+    bool with_inside = false;
 
     /// Whether primitives that are in these groups count.
     bool admits(const std::vector<std::string>& groups) const {

@@ -97,8 +97,9 @@ struct ShadingGrid {
     RayFootprint hit_ray;   ///< of what a ray has hit: of the ray, there and then
     /// Of hit_ray: from there to where the rays beside it are, turned back as I is.
     std::array<V3f, 2> hit_across{V3f(0, 0, 0), V3f(0, 0, 0)};
-    RayMedium medium;          ///< of what a ray has hit: what it is seen through, if that has a shader
-    bool own_colors = false;   ///< of what a ray has hit: stands for the primitive's own Cs and Os
+    RayMedium medium;         ///< of what a ray has hit: what it is seen through, if that has a shader
+    bool own_colors = false;  ///< of what a ray has hit: stands for the primitive's own Cs and Os
+    bool is_end = false;      ///< where a ray ends that has hit nothing there: the medium's shader runs alone
     bool for_opacity = false;  ///< of what a ray has hit: Oi is wanted alone
     Triples dPdu,
         dPdv;  ///< derivatives by the surface's u and v, which run 0..1 over the primitive's face or patch

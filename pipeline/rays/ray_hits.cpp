@@ -47,6 +47,7 @@ bool RayHits::shows(const RaySegment& ray, const PlacedRay& placed, const RayGri
     if (dicer_.context().scene->primitives[number].solid >= 0) return true;  // the whole solid has sides
     const Attributes& attributes = dicer_.attributes(number);
     if (ray.only && !ray.only->admits(attributes.rays.groups)) return false;
+    if (ray.only && ray.only->with_inside && !attributes.interior) return false;
     Sides sides = ray.only ? ray.only->sides : Sides::OfAttributes;
     if (sides == Sides::OfAttributes) sides = attributes.sides == 1 ? Sides::Front : Sides::Both;
     if (sides == Sides::Both) return true;

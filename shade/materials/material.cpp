@@ -82,6 +82,8 @@ void Materials::add(const Attributes& attributes, const Names& varying) {
     // They run on other primitives, which do not have the variables of this one.
     material.interior = volume("Interior", attributes.interior.get(), {});
     material.exterior = volume("Exterior", attributes.exterior.get(), {});
+    if (material.interior) material.interior_opacity = opacity_of(*material.interior);
+    if (material.exterior) material.exterior_opacity = opacity_of(*material.exterior);
     const bool sets_P = std::ranges::any_of(material.surface->layers, [](const BoundShader* layer) {
         return writes_variable(layer->program(), "P");
     });
@@ -154,11 +156,11 @@ size_t Materials::endless_count() const {
 }
 
 /// Lights that only colour what is seen need not shine on it, nor send the rays of their shadows.
-const LayeredShader* Materials::opacity_of(const LayeredShader& surface) {
-    const auto [at, is_new] = opacities_.try_emplace(&surface);
+const LayeredShader* Materials::opacity_of(const LayeredShader& shader) {
+    const auto [at, is_new] = opacities_.try_emplace(&shader);
     std::optional<LayeredShader>& part = at->second;
-    if (is_new && surface.layers.size() == 1) {
-        const BoundShader& whole = surface.last();
+    if (is_new && shader.layers.size() == 1) {
+        const BoundShader& whole = shader.last();
         rsl::Program program = rsl::slice(whole.program(), "Oi");
         if (program.code.size() < whole.program().code.size()) {
             const SceneSpaces spaces(*context_.scene, context_.camera, &whole.instance(), nullptr);

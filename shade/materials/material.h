@@ -30,6 +30,8 @@ struct Material {
     const LayeredShader* atmosphere = nullptr;    ///< may be null
     /// Of what rays go through that leave the surface for its inside, or its outside; may be null.
     const LayeredShader *interior = nullptr, *exterior = nullptr;
+    /// Their parts as of surface_opacity.
+    const LayeredShader *interior_opacity = nullptr, *exterior_opacity = nullptr;
     /// Whether a shader asks for object space: grids of different primitives can then not share a run.
     bool asks_object_space = false;
     /// Whether the surface shader sets P and there is a displacement bound: the shader then displaces the
@@ -76,7 +78,7 @@ class Materials {
                              std::span<const std::string> connected);
     const LayeredShader* volume(const char* request, const ShaderInstance* instance, const Names& varying);
     const LayeredShader* surface(const ShaderInstance* instance, const Names& varying);
-    const LayeredShader* opacity_of(const LayeredShader& surface);
+    const LayeredShader* opacity_of(const LayeredShader& shader);
     const Lamp* lamp(const LightInstance& instance);
     const ShaderInstance* in_the_middle(const LightInstance& instance, const ShaderInstance& shader);
     void prepare_for_values(Lamp& lamp);

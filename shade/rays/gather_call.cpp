@@ -156,6 +156,7 @@ void GatherCall::add_rays(size_t number, int first, int count) {
         const V3f P = aim.P + motion.way(ray.segment.time);
         ray.segment.left = asker_.left_at(P, asking, ray.segment.time, arguments_.bias.at(lane));
         ray.segment.max = aim.leads() ? arguments_.max_distance_at(lane) : 0;
+        if (aim.leads()) ray.end = ray.segment.max;
         const V3f direction = angle == 0                        ? axis
                               : arguments_.uniform_distribution ? cone.uniform(sequence[s])
                                                                 : cone.by_cosine(sequence[s]);

@@ -74,7 +74,8 @@ float RayAsker::width_at(const V3f& P, const RayLane& lane) const {
 }
 
 RayMedium RayAsker::medium(const RayLane& lane, const V3f& direction) const {
-    if (service_.volumes->empty() || !lane.grid) return {};
+    if (!knows_media(lane)) return {};
+    if (within_medium_) return lane.grid->medium;
     const V3f outside = lane.grid->Ng.at(lane.lane - lane.first_of_grid);
     return {lane.grid->primitive_index, direction.dot(outside) < 0};
 }

@@ -69,6 +69,10 @@ class RayAsker {
     bool samples_motion() const { return attributes_.rays.sample_motion; }
     /// The depths of what rays of a kind hit.
     RayDepths depths_behind(RayKind kind) const;
+    /// Whether there is any medium that a lane's rays may begin in.
+    bool knows_media(const RayLane& lane) const { return lane.grid && !service_.volumes->empty(); }
+    /// Whether calls are of the shader of what the surface is seen through: their rays begin in it.
+    void ask_within_medium(bool within) { within_medium_ = within; }
     /// What a ray of a lane goes through first.
     RayMedium medium(const RayLane& lane, const V3f& direction) const;
     /// Whether hits are not shaded any more: they are black.
@@ -79,6 +83,7 @@ class RayAsker {
 
     const RayService& service_;
     const Attributes& attributes_;
+    bool within_medium_ = false;
 };
 
 }  // namespace trapeze

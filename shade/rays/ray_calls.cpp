@@ -79,7 +79,14 @@ struct RayCalls::Call {
     }
     V3f share_of(const WalkedRay& ray, size_t lane) const;
     RayAim aim_at(size_t lane, const LaneMotion& motion, float time) const;
+    bool begins_here(size_t lane, const LaneMotion& motion) const;
 };
+
+/// Of two points: whether the first is nearer to the point that is shaded.
+bool RayCalls::Call::begins_here(size_t lane, const LaneMotion& motion) const {
+    return (arguments.from_at(lane) - motion.start()).length2() <=
+           (arguments.towards_at(lane) - motion.start()).length2();
+}
 
 /// Where rays of a lane go at a time. Its point moves, and directions turn with its surface where they belong
 /// to it; lights stay. Of two points that one moves which is nearer to the point that is shaded.
@@ -89,8 +96,8 @@ RayAim RayCalls::Call::aim_at(size_t lane, const LaneMotion& motion, float time)
         return RayAim(moved == V3f(0, 0, 0) ? P : P + moved, motion.turned(towards, time, over_sky()), time);
     if (moved == V3f(0, 0, 0)) return RayAim(P, between_points() ? towards - P : towards, time);
     if (!between_points()) return RayAim(P + moved, towards - moved, time);
-    const bool from_here = (P - motion.start()).length2() <= (towards - motion.start()).length2();
-    return from_here ? RayAim(P + moved, towards - (P + moved), time) : RayAim(P, towards + moved - P, time);
+    return begins_here(lane, motion) ? RayAim(P + moved, towards - (P + moved), time)
+                                     : RayAim(P, towards + moved - P, time);
 }
 
 /// What a ray adds to the result.
@@ -273,9 +280,10 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<Wal
     Cone cone(aim.direction, angle);
     const auto look_along = [&] {
         ray.segment.left = asker_.left_at(aim.P, asking, aim.time, arguments.bias.at(lane));
-        ray.segment.max = arguments.max_distance_at(lane);
+        ray.end = ray.segment.max = arguments.max_distance_at(lane);
         if (call.ends_at_point()) {
             const V3f end = aim.P + aim.direction * aim.length;
+            ray.end = std::min(ray.end, aim.length);
             ray.segment.max = std::min(ray.segment.max,
                                        aim.length - asker_.margin_at(end, asking, arguments.bias.at(lane)));
         }
@@ -290,6 +298,8 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<Wal
     ray.segment.spread = ray.footprint.fastest();
     const RaySequence sequence(asking.seed, samples);
     const SampleBase base(call.run);
+    const bool arrives =
+        call.between_points() && asker_.knows_media(asking) && !call.begins_here(lane, motion);
     const bool by_cosine = call.over_sky() && !arguments.uniform_distribution;
     for (int s = 0; s < samples; ++s) {
         if (const float time = motion.time(s); time != aim.time) {
@@ -303,8 +313,8 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<Wal
                                             : cone.uniform(sequence[s]);
         ray.segment.min = ray.segment.left.distance(ray.segment.direction);
         ray.segment.origin = base.origin(aim.P, arguments, asking, s) + ray.moved;
-        ray.medium = asker_.medium(
-            asking, motion.turned_back(ray.segment.direction, ray.segment.time, call.over_sky()));
+        const V3f way = motion.turned_back(ray.segment.direction, ray.segment.time, call.over_sky());
+        (arrives ? ray.end_medium : ray.medium) = asker_.medium(asking, arrives ? -way : way);
         ray.seed = asking.of_ray(s);
         rays.push_back(ray);
     }

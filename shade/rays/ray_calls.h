@@ -24,6 +24,8 @@ class RayCalls : public vm::Rays {
     std::unique_ptr<vm::GatherTurns> gather(vm::Run& run, const vm::Step& step,
                                             std::span<const vm::Operand> operands) override;
     vm::RayFacts facts() const override;
+    /// Whether the calls that follow are of the shader of what the grids are seen through.
+    void ask_within_medium(bool within) { asker_.ask_within_medium(within); }
 
   private:
     struct Call;
@@ -46,7 +48,7 @@ class RayCalls : public vm::Rays {
     Task<bool> follow(const Call& call, std::span<WalkedRay> rays) const;
     void look_at_sky(const Call& call, const vm::Operand& out, std::span<const RayLane> lanes) const;
 
-    const RayAsker asker_;
+    RayAsker asker_;
     /// How often a call has been made for each lane: calls in loops take other random numbers each time.
     std::unordered_map<const vm::Step*, std::vector<uint32_t>> calls_;
     std::unordered_map<const ShadingGrid*, float> bends_;

@@ -27,11 +27,6 @@ float largest(const V3f& v) {
     return std::max({v.x, v.y, v.z});
 }
 
-/// Behind a surface, but not so far that the next one is missed.
-float behind(const RaySurfaceHit& hit, float spacing) {
-    return hit.distance + std::max(hit.distance * 1e-6f, spacing * 1e-4f);
-}
-
 /// Whether shaders are to displace what rays meet.
 bool is_displaced(const Attributes& attributes) {
     return attributes.rays.displaced && (attributes.displacement || attributes.displacement_bound > 0);
@@ -72,21 +67,23 @@ size_t rays_at_once(const RayScene& scene) {
 Task<> RayWalk::radiance(std::span<WalkedRay> rays, const RayAsk& ask) {
     std::vector<WalkedRay*> all;
     for (WalkedRay& ray : rays) all.push_back(&ray);
-    co_await walk(all, ask, Wants::Color);
+    co_await walk(all, {}, ask, Wants::Color);
     count_of(ask.kind, stats_) += rays.size();
 }
 
 Task<> RayWalk::transmission(std::span<WalkedRay> rays, const RayAsk& ask, bool with_distance) {
     std::vector<WalkedRay*> open;  // it is not known at once whether they are blocked
+    std::vector<WalkedRay*> free;
     const bool walks = with_distance || ask.hit_mode;
     std::vector<std::optional<bool>> blocked(rays.size());
     if (!walks) scene_.blocked(segments_of(rays), ask.kind, blocked);
     for (size_t i = 0; i < rays.size(); ++i) {
         if (!blocked[i]) open.push_back(&rays[i]);
         if (blocked[i].value_or(false)) rays[i].through = V3f(0, 0, 0);
+        if (!blocked[i].value_or(true) && ends_in_media(rays[i], ask)) free.push_back(&rays[i]);
     }
     count_of(ask.kind, stats_) += rays.size();
-    co_await walk(open, ask, Wants::Opacity);
+    co_await walk(open, std::move(free), ask, Wants::Opacity);
 }
 
 void RayWalk::distance(std::span<WalkedRay> rays, const RayAsk& ask) {
@@ -97,8 +94,10 @@ void RayWalk::distance(std::span<WalkedRay> rays, const RayAsk& ask) {
     count_of(ask.kind, stats_) += rays.size();
 }
 
-/// All go on together, a surface farther each time.
-Task<> RayWalk::walk(std::span<WalkedRay* const> rays, const RayAsk& ask, Wants wants) {
+/// All go on together, a surface farther each time; `free`: rays that are known to meet none before their
+/// ends.
+Task<> RayWalk::walk(std::span<WalkedRay* const> rays, std::vector<WalkedRay*> free, const RayAsk& ask,
+                     Wants wants) {
     std::vector<WalkedRay*> going(rays.begin(), rays.end());
     std::vector<const RaySegment*> segments;
     std::vector<std::optional<RaySurfaceHit>> hits;
@@ -110,6 +109,7 @@ Task<> RayWalk::walk(std::span<WalkedRay* const> rays, const RayAsk& ask, Wants 
         hits.resize(going.size());
         scene_.closest(segments, ask.kind, hits);
         for (size_t i = 0; i < going.size(); ++i) {
+            if (!hits[i] && ends_in_media(*going[i], ask)) free.push_back(going[i]);
             if (!hits[i]) continue;
             going[i]->distance = std::min(going[i]->distance, hits[i]->distance);
             met.push_back({going[i], *hits[i]});
@@ -122,6 +122,22 @@ Task<> RayWalk::walk(std::span<WalkedRay* const> rays, const RayAsk& ask, Wants 
                 if (pass(one, ask)) going.push_back(one.ray);
         }
     }
+    if (!free.empty()) co_await come_to_ends(free, ask, wants);
+}
+
+/// Adds to what a ray has seen; whether any light is left.
+bool RayWalk::see(WalkedRay& ray, const V3f& color, const V3f& opacity) {
+    ray.seen += ray.through * color;
+    for (int k = 0; k < 3; ++k) ray.through[k] *= 1 - std::clamp(opacity[k], 0.0f, 1.0f);
+    if (largest(ray.through) > kNothingLeft) return true;
+    ray.through = V3f(0, 0, 0);
+    return false;
+}
+
+/// Behind a surface, but not so far that the next one is missed.
+float RayWalk::behind(const RaySegment& ray, const RaySurfaceHit& hit) const {
+    const float spacing = scene_.spacing(ray.origin + ray.direction * hit.distance);
+    return hit.distance + std::max(hit.distance * 1e-6f, spacing * 1e-4f);
 }
 
 /// Adds a surface to what its ray has seen; whether the ray goes on behind it. Attributes::matte means
@@ -132,20 +148,14 @@ bool RayWalk::pass(const Met& met, const RayAsk& ask) const {
     const bool own = met.vertex < 0;
     const V3f opacity = own ? met.hit.opacity : met.grid->Oi.at(static_cast<size_t>(met.vertex));
     const V3f color = own ? met.hit.color * opacity : met.grid->Ci.at(static_cast<size_t>(met.vertex));
-    ray.seen += ray.through * color;
-    for (int k = 0; k < 3; ++k) ray.through[k] *= 1 - std::clamp(opacity[k], 0.0f, 1.0f);
-    if (!(largest(ray.through) > kNothingLeft)) {
-        ray.through = V3f(0, 0, 0);
-        return false;
-    }
+    if (!see(ray, color, opacity)) return false;
     if (ask.opaque) {
         bool ends = true;
         for (int k = 0; k < 3; ++k) ends &= 1 - ray.through[k] >= (*ask.opaque)[k];
         if (ends) return false;
     }
     ray.medium = {met.hit.primitive, met.hit.from_outside}, ray.medium_from = met.hit.distance;
-    const V3f P = ray.segment.origin + ray.segment.direction * met.hit.distance;
-    ray.segment.min = behind(met.hit, scene_.spacing(P));
+    ray.segment.min = behind(ray.segment, met.hit);
     ray.segment.level = met.hit.level;  // else finer geometry of the same surface might be met once more
     return true;
 }
@@ -166,10 +176,22 @@ RayMedium RayWalk::medium_of(const Met& met) const {
     return !met.hit.from_outside && volumes_.has(inside_of_hit) ? inside_of_hit : RayMedium();
 }
 
+ShadingGrid& RayWalk::grid_of_number(size_t number) {
+    if (scratch_.grids.size() <= number) scratch_.grids.emplace_back();
+    return scratch_.grids[number];
+}
+
+/// Sets what the ray sends to the shaders that run on a grid.
+void RayWalk::send(const WalkedRay& ray, const RayAsk& ask, ShadingGrid& grid) {
+    grid.sent.assign(ask.sent.begin(), ask.sent.end());
+    const float* number = ray.sent;
+    for (SentVariable& sent : grid.sent)
+        for (std::vector<float>& plane : sent.variable.planes) plane.front() = *number++;
+}
+
 /// The grid of a hit, of which its ray sees the vertex that was hit.
 ShadingGrid& RayWalk::grid_of(Met& met, const RayAsk& ask, size_t number) {
-    if (scratch_.grids.size() <= number) scratch_.grids.emplace_back();
-    ShadingGrid& grid = scratch_.grids[number];
+    ShadingGrid& grid = grid_of_number(number);
     const int vertex = scene_.dice(met.hit, grid);
     const RaySegment& ray = met.ray->segment;
     grid.hit_vertex = vertex, grid.hit_time = ray.time, grid.hit_level = met.hit.level;
@@ -187,10 +209,7 @@ ShadingGrid& RayWalk::grid_of(Met& met, const RayAsk& ask, size_t number) {
     see_hit(grid);
     grid.seed = met.ray->seed;
     grid.answers.clear();
-    grid.sent.assign(ask.sent.begin(), ask.sent.end());
-    const float* number_sent = met.ray->sent;
-    for (SentVariable& sent : grid.sent)
-        for (std::vector<float>& plane : sent.variable.planes) plane.front() = *number_sent++;
+    send(*met.ray, ask, grid);
     met.grid = &grid;
     return grid;
 }

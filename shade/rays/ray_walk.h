@@ -32,8 +32,10 @@ struct WalkedRay {
     uint64_t seed = 0;  ///< of random numbers of shaders that it meets
     RayMedium medium;   ///< what it goes through from the distance `medium_from` on
     float medium_from = 0;
-    V3f seen{0, 0, 0};            ///< colour, as radiance() leaves it
-    V3f through{1, 1, 1};         ///< the part of the light from behind that arrives
+    float end = kInfinity;  ///< where it ends if nothing is in its way; what is shortly before may not count
+    RayMedium end_medium;   ///< what it comes to its end through, if no surface on the way says so
+    V3f seen{0, 0, 0};      ///< colour, as radiance() leaves it
+    V3f through{1, 1, 1};   ///< the part of the light from behind that arrives
     float distance = kInfinity;   ///< of the first hit
     float* answers = nullptr;     ///< where the first hit's answers to RayAsk::outputs go
     const float* sent = nullptr;  ///< numbers for RayAsk::sent, of one variable's planes after the other's
@@ -120,8 +122,18 @@ class RayWalk {
         ShadingGrid* grid = nullptr;
     };
 
-    Task<> walk(std::span<WalkedRay* const> rays, const RayAsk& ask, Wants wants);
+    Task<> walk(std::span<WalkedRay* const> rays, std::vector<WalkedRay*> free, const RayAsk& ask,
+                Wants wants);
     bool pass(const Met& met, const RayAsk& ask) const;
+    static bool see(WalkedRay& ray, const V3f& color, const V3f& opacity);
+    float behind(const RaySegment& ray, const RaySurfaceHit& hit) const;
+    // ray_ends.cpp
+    bool ends_in_media(const WalkedRay& ray, const RayAsk& ask) const;
+    void look_for_insides(std::span<WalkedRay* const> rays, RayKind kind) const;
+    Task<> come_to_ends(std::vector<WalkedRay*>& rays, const RayAsk& ask, Wants wants);
+    ShadingGrid& grid_at_end(const WalkedRay& ray, const RayAsk& ask, size_t number);
+    ShadingGrid& grid_of_number(size_t number);
+    static void send(const WalkedRay& ray, const RayAsk& ask, ShadingGrid& grid);
     RayMedium medium_of(const Met& met) const;
     bool shades(const RaySurfaceHit& hit, const RayAsk& ask, Wants wants) const;
     Task<> visit_hits(std::span<Met> met, const RayAsk& ask, Wants wants, bool first);

@@ -69,6 +69,16 @@ const Meeting kMeetings[] = {
      "",
      "Interior \"haze\" Surface \"constant\" Opacity .3 .3 .3 Translate 0 0 2 " + kMetBall + wall("0"),
      kAsksAhead},
+    {"ends_in_media",
+     {{"smoke",
+       "volume smoke() { float t = exp(-length(I) * (.1 + random())); Ci = mix(color .5, Ci, t);"
+       " Oi = mix(color 1, Oi, t); }"}},
+     "Shutter 0 1 ",
+     "Attribute \"trace\" \"int samplemotion\" [1] ",
+     "Interior \"smoke\" Surface \"constant\" Opacity .3 .3 .3 Translate 0 0 2 " + kMetBall +
+         "Sphere 9 -9 9 360 ",
+     "Ci = transmission(P, point(0, 0, 1.5), \"samples\", 8) +"
+     "  trace(P, vector(0, 0, -1), \"maxdist\", 2 + xcomp(P), \"samples\", 8);"},
     {"solids",
      {},
      "",
