@@ -1,8 +1,8 @@
 /// Where rays end without having met anything: what they come there through dims what arrives.
 #include <algorithm>
-#include <map>
 
 #include "core/axis_frame.h"
+#include "shade/rays/inside_search.h"
 #include "shade/rays/ray_walk.h"
 
 namespace trapeze {
@@ -10,8 +10,6 @@ namespace {
 
 /// Ends that are shaded together.
 constexpr size_t kEndsTogether = 256;
-/// The most surfaces of things with an inside behind a ray's end: a bound on work.
-constexpr int kMostSurfacesBehind = 64;
 
 /// A micropolygon of this side that faces the ray, of nothing, the first vertex at the end.
 void make_end(const V3f& end, const V3f& direction, float side, ShadingGrid& grid) {
@@ -47,53 +45,6 @@ bool RayWalk::ends_in_media(const WalkedRay& ray, const RayAsk& ask) const {
            ray.end < kInfinity && ray.end > ray.medium_from;
 }
 
-/// Sets end_medium of rays of which no medium is known: they may be within a thing that stands around the
-/// end, as of hits it is the thing that tells (medium_of()). What is behind the end alone is gone into before
-/// it is left.
-void RayWalk::look_for_insides(std::span<WalkedRay* const> rays, RayKind kind) const {
-    struct Looking {
-        WalkedRay* ray;
-        RaySegment segment;
-        int within = 0;  ///< how many things behind the end
-    };
-    std::map<const RayFilter*, RayFilter> filters;
-    std::vector<Looking> looking;
-    for (WalkedRay* const ray : rays) {
-        if (volumes_.has(ray->medium) || volumes_.has(ray->end_medium)) continue;
-        RaySegment segment = ray->segment;
-        const auto [filter, is_new] = filters.try_emplace(segment.only);
-        if (is_new && segment.only) filter->second = *segment.only;
-        filter->second.sides = RayFilter::Sides::OfAttributes, filter->second.with_inside = true;
-        segment.only = &filter->second, segment.left = {};
-        segment.min = std::max(segment.max, 0.0f), segment.max = std::numeric_limits<float>::infinity();
-        looking.push_back({ray, segment});
-    }
-    std::vector<const RaySegment*> segments;
-    std::vector<std::optional<RaySurfaceHit>> hits;
-    for (int surface = 0; surface < kMostSurfacesBehind && !looking.empty(); ++surface) {
-        segments.clear();
-        for (const Looking& one : looking) segments.push_back(&one.segment);
-        hits.assign(looking.size(), std::nullopt);
-        scene_.closest(segments, kind, hits);
-        std::vector<Looking> farther;
-        for (size_t i = 0; i < looking.size(); ++i) {
-            if (!hits[i]) continue;
-            Looking& one = looking[i];
-            const RayMedium inside{hits[i]->primitive, true};
-            if (volumes_.has(inside)) {
-                if (!hits[i]->from_outside && one.within == 0) {
-                    one.ray->end_medium = inside;
-                    continue;
-                }
-                one.within += hits[i]->from_outside ? 1 : -1;
-            }
-            one.segment.min = behind(one.segment, *hits[i]), one.segment.level = hits[i]->level;
-            farther.push_back(one);
-        }
-        looking = std::move(farther);
-    }
-}
-
 /// The grid of a ray's end, seen from where its medium begins.
 ShadingGrid& RayWalk::grid_at_end(const WalkedRay& ray, const RayAsk& ask, size_t number) {
     ShadingGrid& grid = grid_of_number(number);
@@ -115,7 +66,11 @@ ShadingGrid& RayWalk::grid_at_end(const WalkedRay& ray, const RayAsk& ask, size_
 
 /// Runs the shaders of what rays come to their ends through, as if a surface that cannot be seen were there.
 Task<> RayWalk::come_to_ends(std::vector<WalkedRay*>& rays, const RayAsk& ask, Wants wants) {
-    if (volumes_.has_insides()) look_for_insides(rays, ask.kind);
+    InsideSearch search(scene_, volumes_, ask.kind);
+    for (WalkedRay* const ray : rays)
+        if (volumes_.has_insides() && !volumes_.has(ray->medium) && !volumes_.has(ray->end_medium))
+            search.add(ray->segment, ray->segment.max, ray->end_medium);
+    search.run();
     std::erase_if(rays, [&](const WalkedRay* ray) {
         return !volumes_.has(ray->medium) && !volumes_.has(ray->end_medium);
     });

@@ -4,6 +4,8 @@
 #include <bit>
 #include <tuple>
 
+#include "shade/rays/inside_search.h"
+
 namespace trapeze {
 namespace {
 
@@ -134,12 +136,6 @@ bool RayWalk::see(WalkedRay& ray, const V3f& color, const V3f& opacity) {
     return false;
 }
 
-/// Behind a surface, but not so far that the next one is missed.
-float RayWalk::behind(const RaySegment& ray, const RaySurfaceHit& hit) const {
-    const float spacing = scene_.spacing(ray.origin + ray.direction * hit.distance);
-    return hit.distance + std::max(hit.distance * 1e-6f, spacing * 1e-4f);
-}
-
 /// Adds a surface to what its ray has seen; whether the ray goes on behind it. Attributes::matte means
 /// nothing here: what is held out of the picture is held out of the camera's view alone, and reflections and
 /// shadows have it.
@@ -155,7 +151,7 @@ bool RayWalk::pass(const Met& met, const RayAsk& ask) const {
         if (ends) return false;
     }
     ray.medium = {met.hit.primitive, met.hit.from_outside}, ray.medium_from = met.hit.distance;
-    ray.segment.min = behind(ray.segment, met.hit);
+    ray.segment.min = behind(scene_, ray.segment, met.hit);
     ray.segment.level = met.hit.level;  // else finer geometry of the same surface might be met once more
     return true;
 }
@@ -168,12 +164,20 @@ bool RayWalk::shades(const RaySurfaceHit& hit, const RayAsk& ask, Wants wants) c
            RayAsk::HitMode::Shader;
 }
 
-/// What a hit is seen through, if that has a shader. A ray may begin within a thing that stands close to
-/// where it was sent from, or that stands around all: then it is the thing that tells.
-RayMedium RayWalk::medium_of(const Met& met) const {
-    const RayMedium inside_of_hit{met.hit.primitive, true};
-    if (volumes_.has(met.ray->medium)) return met.ray->medium;
-    return !met.hit.from_outside && volumes_.has(inside_of_hit) ? inside_of_hit : RayMedium();
+/// What hits are seen through, if that has a shader. A ray may begin within a thing that stands close to
+/// where it was sent from, or that stands around all: then it is the thing that tells. Of what is opaque by
+/// itself nothing more is asked where opacity is wanted alone.
+void RayWalk::find_media(std::span<Met> met, const RayAsk& ask, Wants wants) const {
+    if (volumes_.empty() || !ask.shades) return;
+    InsideSearch search(scene_, volumes_, ask.kind);
+    for (Met& one : met) {
+        const bool hides = wants == Wants::Opacity && one.hit.keeps_opacity && one.hit.opacity == V3f(1);
+        if (volumes_.has(one.ray->medium))
+            one.medium = one.ray->medium;
+        else if (volumes_.has_insides() && !hides)
+            search.add_before(one.ray->segment, one.hit, one.medium);
+    }
+    search.run();
 }
 
 ShadingGrid& RayWalk::grid_of_number(size_t number) {
@@ -202,7 +206,7 @@ ShadingGrid& RayWalk::grid_of(Met& met, const RayAsk& ask, size_t number) {
     else
         move_hit_to(place, grid);
     // Seen through a medium, from where that begins.
-    grid.medium = medium_of(met);
+    grid.medium = met.medium;
     const bool in_medium = grid.medium != RayMedium();
     grid.hit_from = in_medium ? ray.origin + ray.direction * met.ray->medium_from : ray.origin;
     grid.hit_ray = met.ray->footprint.behind(met.hit.distance);
@@ -222,9 +226,10 @@ Task<> RayWalk::visit_hits(std::span<Met> met, const RayAsk& ask, Wants wants, b
     visit.outputs = first ? ask.outputs : nullptr;
     const bool asks = visit.outputs && !visit.outputs->empty();
     std::vector<ShadingGrid*> shaded, asked;
+    find_media(met, ask, wants);
     for (Met& one : met) {
         const bool own_colors = !shades(one.hit, ask, wants);
-        const bool runs = !own_colors || (ask.shades && medium_of(one) != RayMedium());
+        const bool runs = !own_colors || one.medium != RayMedium();
         if (!runs && !asks) continue;
         ShadingGrid& grid = grid_of(one, ask, shaded.size() + asked.size());
         grid.for_opacity = wants == Wants::Opacity, grid.own_colors = own_colors;

@@ -118,6 +118,7 @@ class RayWalk {
     struct Met {
         WalkedRay* ray;
         RaySurfaceHit hit;
+        RayMedium medium = {};  ///< what it is seen through, if that has a shader
         int vertex = -1;  ///< of the grid that shades it, or its medium; -1: the primitive's own values hold
         ShadingGrid* grid = nullptr;
     };
@@ -126,15 +127,13 @@ class RayWalk {
                 Wants wants);
     bool pass(const Met& met, const RayAsk& ask) const;
     static bool see(WalkedRay& ray, const V3f& color, const V3f& opacity);
-    float behind(const RaySegment& ray, const RaySurfaceHit& hit) const;
     // ray_ends.cpp
     bool ends_in_media(const WalkedRay& ray, const RayAsk& ask) const;
-    void look_for_insides(std::span<WalkedRay* const> rays, RayKind kind) const;
     Task<> come_to_ends(std::vector<WalkedRay*>& rays, const RayAsk& ask, Wants wants);
     ShadingGrid& grid_at_end(const WalkedRay& ray, const RayAsk& ask, size_t number);
     ShadingGrid& grid_of_number(size_t number);
     static void send(const WalkedRay& ray, const RayAsk& ask, ShadingGrid& grid);
-    RayMedium medium_of(const Met& met) const;
+    void find_media(std::span<Met> met, const RayAsk& ask, Wants wants) const;
     bool shades(const RaySurfaceHit& hit, const RayAsk& ask, Wants wants) const;
     Task<> visit_hits(std::span<Met> met, const RayAsk& ask, Wants wants, bool first);
     ShadingGrid& grid_of(Met& met, const RayAsk& ask, size_t number);

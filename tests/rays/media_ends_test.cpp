@@ -9,7 +9,8 @@ namespace {
 
 /// All around.
 const std::string kSmokyRoom =
-    "Interior \"haze\" \"k\" [.2] \"own\" [.5 .5 .5] Surface \"constant\" " + sphere("0 0 5", "20");
+    "Surface \"constant\" AttributeBegin Interior \"haze\" \"k\" [.2] \"own\" [.5 .5 .5] " +
+    sphere("0 0 5", "20") + "AttributeEnd ";
 constexpr float kHalfFloat = 5e-4f;  ///< how finely pictures tell
 /// What micropolygons' chords are short of.
 constexpr float kHalfChord = 2e-3f;
@@ -103,6 +104,19 @@ TEST(RayMediaEnds, WhatStandsBehindTheEnd) {
         c.things = stands;
         expect_near(c.render(way + "Ci = color(comp(transmission(P, q), 0), 1, 1);"), 0);
     }
+}
+
+/// What has no smoke of its own stands in that of the room, and lets it through.
+TEST(RayMediaEnds, WhatStandsInTheRoom) {
+    Case c = smoky();
+    c.asker = "Attribute \"trace\" \"int maxspeculardepth\" 9 ";
+    const std::string way = "point q = P - vector(0, 0, 2 + xcomp(P)); float way = distance(P, q); ";
+    c.things = kSmokyRoom + "Opacity 0 0 0 " + wall("4") + sphere("0 0 4", ".5");
+    expect_near(c.render(way + "Ci = color(comp(transmission(P, q), 0), exp(-.2 * way), 1);"), kHalfFloat);
+    c.things = kSmokyRoom + "Opacity 0 0 0 " + wall("4") + "Opacity 1 1 1 Color 1 1 1 " + wall("2");
+    expect_near(c.render("float t = exp(-.2 * 3);"
+                         "Ci = color(comp(trace(P, vector(0, 0, -1)), 0), .5 + .5 * t, 1);"),
+                kHalfFloat);
 }
 
 /// Smoke that sends what it takes: what is seen of it, and what is left of what is behind, are all.
