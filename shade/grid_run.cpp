@@ -232,7 +232,7 @@ Task<vm::Registers*> GridRun::run_layer(const LayeredShader& shader, size_t laye
     surroundings.clouds = &clouds_;
     surroundings.lights = &scratch_.lights;
     surroundings.rays = rays_ ? &*rays_ : nullptr;
-    if (rays_) rays_->ask_within_medium(left_ && &shader == volume());
+    if (rays_) rays_->ask_within_medium(left_ && &shader == volume(), grids.front()->for_opacity);
     surroundings.messages = &messages_;
     surroundings.diagnostics = context_.diagnostics;
     surroundings.near_clip = context_.camera.near_clip, surroundings.far_clip = context_.camera.far_clip;

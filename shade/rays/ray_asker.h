@@ -72,7 +72,13 @@ class RayAsker {
     /// Whether there is any medium that a lane's rays may begin in.
     bool knows_media(const RayLane& lane) const { return lane.grid && !service_.volumes->empty(); }
     /// Whether calls are of the shader of what the surface is seen through: their rays begin in it.
-    void ask_within_medium(bool within) { within_medium_ = within; }
+    /// `for_opacity`: its opacity alone is wanted.
+    void ask_within_medium(bool within, bool for_opacity) {
+        within_medium_ = within, dims_alone_ = within && for_opacity;
+    }
+    /// Whether rays to lights are to take things for what they are by themselves: what dims light need not be
+    /// lit through itself, and would ask again at each step of its way.
+    bool dims_alone() const { return dims_alone_; }
     /// What a ray of a lane goes through first.
     RayMedium medium(const RayLane& lane, const V3f& direction) const;
     /// Whether hits are not shaded any more: they are black.
@@ -83,7 +89,7 @@ class RayAsker {
 
     const RayService& service_;
     const Attributes& attributes_;
-    bool within_medium_ = false;
+    bool within_medium_ = false, dims_alone_ = false;
 };
 
 }  // namespace trapeze

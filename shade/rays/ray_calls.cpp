@@ -335,7 +335,7 @@ Task<bool> RayCalls::follow(const Call& call, std::span<WalkedRay> rays) const {
     ask.hit_mode = arguments.hit_mode;
     ask.opaque = arguments.opaque;
     const bool too_deep = asker_.is_too_deep(ask.kind);
-    ask.shades = !too_deep;
+    ask.shades = !too_deep && !(ask.kind == RayKind::Transmission && asker_.dims_alone());
     if (op == Op::Trace && !call.colors) {
         if (arguments.sets("transmission"))
             co_await walk.transmission(rays, ask, true);

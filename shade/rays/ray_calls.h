@@ -24,8 +24,8 @@ class RayCalls : public vm::Rays {
     std::unique_ptr<vm::GatherTurns> gather(vm::Run& run, const vm::Step& step,
                                             std::span<const vm::Operand> operands) override;
     vm::RayFacts facts() const override;
-    /// Whether the calls that follow are of the shader of what the grids are seen through.
-    void ask_within_medium(bool within) { asker_.ask_within_medium(within); }
+    /// RayAsker::ask_within_medium(), of the calls that follow.
+    void ask_within_medium(bool within, bool for_opacity) { asker_.ask_within_medium(within, for_opacity); }
 
   private:
     struct Call;

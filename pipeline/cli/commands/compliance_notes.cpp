@@ -19,7 +19,8 @@ constexpr RequestNote kRequests[] = {
     {"EditBegin", "the block is skipped"},
     {"EditWorldBegin", "the block is skipped"},
     {"Exterior",
-     "on rays of shaders that leave the surface, as far as the next one; where nothing is hit it does not run"},
+     "on rays of shaders that leave the surface, as far as the next one, or to the ray's end; where nothing is hit and "
+     "there is no end it does not run"},
     {"GeometricApproximation", "motionfactor, focusfactor; flatness is read"},
     {"GeometricRepresentation", "read; all is drawn as it is"},
     {"HierarchicalSubdivisionMesh",
@@ -33,7 +34,8 @@ constexpr RequestNote kRequests[] = {
      "built in"},
     {"Integrator", "read; RIS shaders are not run"},
     {"Interior",
-     "on rays of shaders that go in, as far as the next surface; not on what the camera sees through it"},
+     "on rays of shaders that go in or are in there, as far as the next surface, or to the ray's end; not on what the "
+     "camera sees through it"},
     {"Light",
      "rislight, an area light of the shading language, stands for it; lightColorMap is for domes alone; at most 64 "
      "lights of a world shine, further ones are dark, with a warning"},
@@ -83,8 +85,9 @@ constexpr Capability kCapabilities[] = {
      "are shaders, structs and resizable arrays, without co-shaders."},
     {"Volume Shading", "supported with limits",
      "Atmosphere shaders run at visible points; there is no volume between the surfaces that a sample of the camera "
-     "sees one behind the other. Interior and Exterior run along rays of shaders, from surface to surface: Interior not "
-     "on what the camera sees through a surface, Exterior not on rays that hit nothing."},
+     "sees one behind the other. Interior and Exterior run along rays of shaders, from surface to surface "
+     "and to the points where rays end: Interior not on what the camera sees through a surface, Exterior not on rays "
+     "without an end that hit nothing."},
     {"Ray Tracing", "supported",
      "trace(), transmission() and visibility() meet all that Attribute \"visibility\" lets their rays see, at "
      "shutter open or, with Attribute \"trace\" \"samplemotion\", while it is open; gather() tells of hits. They are shaded with their own derivatives, and filtered over the width of the ray (differentials). The geometry is diced as "
