@@ -101,12 +101,13 @@ print("""
 AttributeBegin
   AttributeBegin
     Attribute "light" "int nsamples" [12]
-    Translate -6 10 -6
-    Rotate 45 0 1 0
-    Rotate 55 1 0 0
-    AreaLightSource "arealight" 4 "intensity" [26] "lightcolor" [1 .95 .86]
+    Translate -6 10 2
+    Rotate 108 0 1 0
+    Rotate 58 1 0 0
+    AreaLightSource "arealight" 4 "intensity" [85] "lightcolor" [1 .95 .86]
     Disk 0 1.6 360
   AttributeEnd
+  Illuminate 3 0
   Illuminate 4 1
   Surface "polished_marble"
   Attribute "trace" "int maxspeculardepth" [1]

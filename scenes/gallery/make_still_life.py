@@ -65,7 +65,7 @@ Option "searchpath" "string shader" ["shaders:&"]
 Option "trace" "int maxdepth" [8]
 Display "still_life.exr" "openexr" "rgba"
 Format 1280 720 1
-PixelSamples 8 8
+PixelSamples 16 16
 PixelFilter "gaussian" 2 2
 ShadingInterpolation "smooth"
 ShadingRate 1
