@@ -273,6 +273,44 @@ TEST_P(RayFurnace, ABallAndItsFloorLoseNoMoreThanTheyHide) {
     }
 }
 
+/// A ball whose displaced bumps hide parts of the sky from each other loses what is hit once more than the
+/// depth allows.
+TEST(RayFurnaceOfBumps, LoseNoMoreThanTheyHide) {
+    const std::string out = "normal away = normalize(N); if (away . (P - point(0, 0, 4)) < 0) away = -away; ";
+    const std::string bumpy =
+        "Attribute \"displacementbound\" \"sphere\" [.2] Attribute \"trace\" \"int displacements\" [1] "
+        "Displacement \"bumps\" ";
+    for (const FurnacePose& pose : {FurnacePose{"at rest"}, FurnacePose{"moving", ".4 -.3 3.5"},
+                                    FurnacePose{"turning", "0 0 4", 1, false, 60}}) {
+        SCOPED_TRACE(pose.name);
+        const auto render = [&](int depth, const std::string& body) {
+            Case c = furnace(placed(pose, furnace_ball, bumpy), depth);
+            c.shaders["bumps"] =
+                "displacement bumps() { point Q = transform(\"object\", P); vector v = normalize(vector(Q));"
+                "  P = transform(\"object\", \"current\", Q + .3 * (float noise(9 * v) - .5) * v);"
+                "  N = calculatenormal(P); }";
+            return c.render(out + body);
+        };
+        double most = 0, mean = 0, seen = 0;
+        for (const Pixel& p : pixels(render(1, "Ci = occlusion(P, away, 256);")))
+            if (p.alpha > 0)
+                most = std::max(most, static_cast<double>(p.red)), mean += static_cast<double>(p.red), ++seen;
+        mean /= seen;
+        EXPECT_GT(seen, 400);
+        EXPECT_GT(mean, 0.02);
+        EXPECT_LT(most, 0.9);
+        for (const int depth : {1, 3, 7}) {
+            const Image image = render(depth, kWhite);
+            for (const Pixel& p : pixels(image)) ASSERT_LE(p.red, 1 + 1e-5f);
+            const double lost = 1 - mean_red(image), usual = std::pow(mean, depth + 1);
+            EXPECT_LE(lost, std::pow(most, depth + 1)) << depth;
+            // What bumps see of each other hides about as much of the sky as they do.
+            EXPECT_LE(lost, 2 * usual + 1e-3) << depth;
+            EXPECT_GE(lost, usual / 2 - 1e-5) << depth;
+        }
+    }
+}
+
 std::string name_of(const ::testing::TestParamInfo<FurnacePose>& pose) {
     return pose.param.name;
 }
