@@ -143,6 +143,13 @@ TEST(CullHidden, SomeAreShadedInAnyCase) {
     const auto unshaded = [&](const std::string& ball) {
         return culled("WorldBegin " + kLight + "Surface \"matte\" " + kWall + ball + kBall + "WorldEnd\n",
                       {{"says", "surface says() { if (u < 0) printf(\"never\"); Oi = Os; Ci = Cs; }"},
+                       {"bakes",
+                        "surface bakes() { Oi = Os; Ci = Cs;"
+                        " if (u < 0) bake3d(\"x.ptc\", \"\", P, N, \"a\", u); }"},
+                       {"talks",
+                        "light talks() { illuminate(point(0, 0, 0)) {"
+                        " if (xcomp(Ps) > 1e9) printf(\"never\"); Cl = 1; } }"},
+                       {"hums", "volume hums() { if (xcomp(P) > 1e9) printf(\"never\"); Ci = Ci; Oi = Oi; }"},
                        {"bump", "displacement bump() { P -= vector(0, 0, 4); N = calculatenormal(P); }"}})
             .unshaded_vertices;
     };
@@ -150,6 +157,9 @@ TEST(CullHidden, SomeAreShadedInAnyCase) {
         culled("WorldBegin " + kLight + "Surface \"matte\" " + kWall + "WorldEnd\n").unshaded_vertices;
     EXPECT_GT(unshaded(""), of_wall);
     EXPECT_EQ(unshaded("Surface \"says\" "), of_wall);
+    EXPECT_EQ(unshaded("Surface \"bakes\" "), of_wall);
+    EXPECT_EQ(unshaded("LightSource \"talks\" 7 "), of_wall);
+    EXPECT_EQ(unshaded("Atmosphere \"hums\" "), of_wall);
     EXPECT_EQ(unshaded("Attribute \"cull\" \"int hidden\" 0 "), of_wall);
     EXPECT_EQ(unshaded("Displacement \"bump\" Attribute \"displacementbound\" \"float sphere\" 4.1 "),
               of_wall);
