@@ -240,21 +240,34 @@ TEST_P(RayFurnace, ABowlLosesHalfAtEachBounce) {
     }
 }
 
+/// How much of the sky is hidden from the points of a picture of kTellsHidden.
+struct Hidden {
+    double most = 0, mean = 0, points = 0;
+};
+const std::string kTellsHidden = "Ci = occlusion(P, away, 256);";
+
+Hidden hidden_in(const Image& image) {
+    Hidden hidden;
+    for (const Pixel& p : pixels(image)) {
+        if (!(p.alpha > 0)) continue;
+        hidden.most = std::max(hidden.most, static_cast<double>(p.red));
+        hidden.mean += static_cast<double>(p.red), ++hidden.points;
+    }
+    hidden.mean /= hidden.points;
+    return hidden;
+}
+
 /// A corner of three squares. Of no point more is hidden than `most`, which is measured: After D
 /// bounces at most that to the power of D + 1 is on its way.
 TEST_P(RayFurnace, ACornerLosesNoMoreThanItHides) {
     const std::string thing = placed(GetParam(), corner, kTurned);
-    double most = 0, mean = 0, seen = 0;
-    for (const Pixel& p : pixels(furnace(thing, 1).render(kIntoCorner + "Ci = occlusion(P, away, 256);")))
-        if (p.alpha > 0)
-            most = std::max(most, static_cast<double>(p.red)), mean += static_cast<double>(p.red), ++seen;
-    mean /= seen;
-    EXPECT_GT(seen, 1000);
-    EXPECT_GT(mean, 0.1);
-    EXPECT_LT(most, 0.9);
+    const Hidden hidden = hidden_in(furnace(thing, 1).render(kIntoCorner + kTellsHidden));
+    EXPECT_GT(hidden.points, 1000);
+    EXPECT_GT(hidden.mean, 0.1);
+    EXPECT_LT(hidden.most, 0.9);
     for (const int depth : {1, 3, 7}) {
         const double found = white(thing, kIntoCorner, depth).mean;
-        EXPECT_GE(found, 1 - std::pow(most, depth + 1) - 5e-3) << depth;
+        EXPECT_GE(found, 1 - std::pow(hidden.most, depth + 1) - 5e-3) << depth;
         EXPECT_LE(found, 1 + 1e-5);
     }
 }
@@ -291,19 +304,15 @@ TEST(RayFurnaceOfBumps, LoseNoMoreThanTheyHide) {
                 "  N = calculatenormal(P); }";
             return c.render(out + body);
         };
-        double most = 0, mean = 0, seen = 0;
-        for (const Pixel& p : pixels(render(1, "Ci = occlusion(P, away, 256);")))
-            if (p.alpha > 0)
-                most = std::max(most, static_cast<double>(p.red)), mean += static_cast<double>(p.red), ++seen;
-        mean /= seen;
-        EXPECT_GT(seen, 400);
-        EXPECT_GT(mean, 0.02);
-        EXPECT_LT(most, 0.9);
+        const Hidden hidden = hidden_in(render(1, kTellsHidden));
+        EXPECT_GT(hidden.points, 400);
+        EXPECT_GT(hidden.mean, 0.02);
+        EXPECT_LT(hidden.most, 0.9);
         for (const int depth : {1, 3, 7}) {
             const Image image = render(depth, kWhite);
             for (const Pixel& p : pixels(image)) ASSERT_LE(p.red, 1 + 1e-5f);
-            const double lost = 1 - mean_red(image), usual = std::pow(mean, depth + 1);
-            EXPECT_LE(lost, std::pow(most, depth + 1)) << depth;
+            const double lost = 1 - mean_red(image), usual = std::pow(hidden.mean, depth + 1);
+            EXPECT_LE(lost, std::pow(hidden.most, depth + 1)) << depth;
             // What bumps see of each other hides about as much of the sky as they do.
             EXPECT_LE(lost, 2 * usual + 1e-3) << depth;
             EXPECT_GE(lost, usual / 2 - 1e-5) << depth;

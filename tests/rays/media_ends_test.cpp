@@ -2,7 +2,7 @@
 /// smoke. Next to the law of Beer and Lambert.
 #include <gtest/gtest.h>
 
-#include "tests/rays/rays_harness.h"
+#include "tests/rays/haze_harness.h"
 
 namespace trapeze::testing {
 namespace {
@@ -12,20 +12,9 @@ const std::string kSmokyRoom =
     "Surface \"constant\" AttributeBegin Interior \"haze\" \"k\" [.2] \"own\" [.5 .5 .5] " +
     sphere("0 0 5", "20") + "AttributeEnd ";
 constexpr float kHalfFloat = 5e-4f;  ///< how finely pictures tell
-/// What micropolygons' chords are short of.
-constexpr float kHalfChord = 2e-3f;
-
-/// What is behind shines through as the exponential of the way says; the rest is the medium's own colour.
-Case smoky() {
-    Case c;
-    c.shaders["haze"] =
-        "volume haze(float k = .5; color own = 0) { float t = exp(-k * length(I));"
-        " Ci = mix(own, Ci, t); Oi = mix(color 1, Oi, t); }";
-    return c;
-}
 
 TEST(RayMediaEnds, TheExteriorOfWhatAsksIsBeforeTheEnd) {
-    Case c = smoky();
+    Case c = hazy();
     c.asker = "Exterior \"haze\" \"k\" [.2] ";
     const std::string expected = "float way = 2 + xcomp(P); vector w = vector(0, 0, -way);";
     expect_near(c.render(expected + "Ci = color(comp(transmission(P, P + w), 0), exp(-.2 * way), 1);"),
@@ -40,24 +29,24 @@ TEST(RayMediaEnds, TheExteriorOfWhatAsksIsBeforeTheEnd) {
 }
 
 TEST(RayMediaEnds, RaysEndWithinAThing) {
-    Case c = smoky();
+    Case c = hazy();
     c.things = "Interior \"haze\" \"k\" [.5] Surface \"constant\" Opacity 0 0 0 " + sphere("0 0 3", "1");
     const std::string way =
         "float r2 = xcomp(P) * xcomp(P) + ycomp(P) * ycomp(P);"
         "float way = r2 < 1 ? sqrt(1 - r2) : 0; float sure = abs(r2 - 1) < .08 ? 0 : 1;";
     expect_near(c.render(way + "Ci = color(comp(transmission(P, P - vector(0, 0, 2)), 0), exp(-.5 * way), "
                                "sure);"),
-                kHalfChord);
+                kThinChord);
     // From within the thing to the outside: what is behind the end does not count.
     expect_near(c.render(way + "point m = P - vector(0, 0, 2); Ci = color(comp(transmission(m, m - vector(0, "
                                "0, 1.8)), 0), exp(-.5 * way), sure);"),
-                kHalfChord);
+                kThinChord);
 }
 
 /// Expects what lamps send to the asker to be what arrives through smoke.
 void expect_in_smoke(const std::string& lights, float tolerance) {
     SCOPED_TRACE(lights);
-    Case c = smoky();
+    Case c = hazy();
     c.shaders["lamp"] =
         "light lamp(point from = point \"shader\" (0, 0, 0)) {"
         "  illuminate(from) { Cl = (1 - shadow(\"raytrace\", Ps)) / (L . L); } }";
@@ -77,7 +66,7 @@ TEST(RayMediaEnds, LampsInARoomOfSmoke) {
 }
 
 TEST(RayMediaEnds, AreaLightsInARoomOfSmoke) {
-    Case c = smoky();
+    Case c = hazy();
     c.things = kSmokyRoom;
     c.asker =
         "AttributeBegin Attribute \"visibility\" \"int camera\" 0 AreaLightSource \"arealight\" \"a\" "
@@ -91,7 +80,7 @@ TEST(RayMediaEnds, AreaLightsInARoomOfSmoke) {
 
 /// What stands behind the end is not the room, whether it has smoke of its own or none.
 TEST(RayMediaEnds, WhatStandsBehindTheEnd) {
-    Case c = smoky();
+    Case c = hazy();
     const std::string way = "point q = P - vector(0, 0, 2 + xcomp(P)); float way = distance(P, q); ";
     for (const std::string& stands :
          {"Surface \"constant\" " + wall("1"),
@@ -108,7 +97,7 @@ TEST(RayMediaEnds, WhatStandsBehindTheEnd) {
 
 /// What has no smoke of its own stands in that of the room, and lets it through.
 TEST(RayMediaEnds, WhatStandsInTheRoom) {
-    Case c = smoky();
+    Case c = hazy();
     c.asker = "Attribute \"trace\" \"int maxspeculardepth\" 9 ";
     const std::string way = "point q = P - vector(0, 0, 2 + xcomp(P)); float way = distance(P, q); ";
     c.things = kSmokyRoom + "Opacity 0 0 0 " + wall("4") + sphere("0 0 4", ".5");
@@ -121,7 +110,7 @@ TEST(RayMediaEnds, WhatStandsInTheRoom) {
 
 /// Smoke that sends what it takes: what is seen of it, and what is left of what is behind, are all.
 TEST(RayMediaEnds, WhatIsSeenAndWhatIsLeftAreAll) {
-    Case c = smoky();
+    Case c = hazy();
     c.asker = "Exterior \"haze\" \"k\" [.4] \"own\" [1 1 1] ";
     const std::string way = "float way = 2 + xcomp(P); vector w = vector(0, 0, -1);";
     expect_near(c.render(way + "Ci = color(comp(trace(P, w, \"maxdist\", way), 0), 1 - exp(-.4 * way), 1);"),
@@ -139,7 +128,7 @@ TEST(RayMediaEnds, WhatIsSeenAndWhatIsLeftAreAll) {
 
 /// A ball that comes by the end: the ray ends before it, within it and behind it.
 TEST(RayMediaEnds, AThingThatMoves) {
-    Case c = smoky();
+    Case c = hazy();
     c.options = "Shutter 0 1 ";
     c.asker = "Attribute \"trace\" \"int samplemotion\" 1 ";
     c.things =
@@ -157,7 +146,7 @@ TEST(RayMediaEnds, AThingThatMoves) {
 
 /// Smoke that lamps shine through, and are dimmed by on their way to it: its shader's own shadows.
 TEST(RayMediaEnds, SmokeIsLitThroughSmoke) {
-    Case c = smoky();
+    Case c = hazy();
     c.shaders["lamp"] =
         "light lamp(point from = point \"shader\" (0, 0, 0)) {"
         "  illuminate(from) { Cl = 1 - shadow(\"raytrace\", Ps); } }";

@@ -1,29 +1,15 @@
 /// Interior and Exterior shaders along rays, next to the law of Beer and Lambert.
 #include <gtest/gtest.h>
 
-#include "tests/rays/rays_harness.h"
+#include "tests/rays/haze_harness.h"
 
 namespace trapeze::testing {
 namespace {
 
-/// What is behind shines through as the exponential of the way says; the rest is the medium's own colour.
-const std::string kHaze =
-    "volume haze(float k = .5; color own = 0) { float t = exp(-k * length(I));"
-    " Ci = mix(own, Ci, t); Oi = mix(color 1, Oi, t); }";
 /// Of light along the way through a sphere of the radius 1 about (0, 0, 3), for the asker's rays along -z.
 const std::string kThrough =
     "float x = xcomp(P), y = ycomp(P); float r2 = x * x + y * y;"
     "float t = r2 < 1 ? exp(-.5 * 2 * sqrt(1 - r2)) : 1; float sure = abs(r2 - 1) < .08 ? 0 : 1;";
-/// A chord is that of micropolygons: shorter by up to 1e-3, and where they lie inside of a thin part.
-constexpr float kThinChord = 2e-3f;
-
-Case hazy() {
-    Case c;
-    c.shaders["haze"] = kHaze;
-    c.shaders["on"] = "surface on() { Ci = trace(P, I); Oi = 1; }";
-    return c;
-}
-
 const std::string kWhiteWall = "Surface \"constant\" Color 1 1 1 " + wall("0");
 
 TEST(RayVolumes, TheExteriorOfWhatAsksIsBeforeTheHit) {
