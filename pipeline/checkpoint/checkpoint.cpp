@@ -93,8 +93,11 @@ void Checkpoint::begin_anew(const std::string& why) {
 }
 
 const FinishedWorld* Checkpoint::begin_world(size_t index) {
+    const std::lock_guard lock(mutex_);
     world_ = index;
-    return index < state_.worlds.size() ? &state_.worlds[index] : nullptr;
+    if (index >= state_.worlds.size()) return nullptr;
+    refuse_what_is_new();
+    return &state_.worlds[index];
 }
 
 void Checkpoint::finish_world(FinishedWorld world, const std::map<std::string, int>& kept) {
@@ -152,9 +155,11 @@ bool Checkpoint::begin(Film& film) {
 
 /// Puts the tiles of the checkpoint into their film; false, and reported, where they are of something else.
 bool Checkpoint::take_tiles(Film& film) {
+    // Saved before the picture was begun: what it reads of its own was not known then.
+    if (state_.tiles <= 0) return true;
     refuse_what_is_new();
-    if (refused_ || state_.tiles <= 0) return !refused_;
-    if (!film.read_finished([this](void* to, size_t count) { return resumed_->read(to, count); }))
+    if (!refused_ &&
+        !film.read_finished([this](void* to, size_t count) { return resumed_->read(to, count); }))
         refuse("its tiles are those of another picture");
     restored_ = film.finished_tiles().size();
     if (!refused_)
@@ -163,8 +168,8 @@ bool Checkpoint::take_tiles(Film& film) {
     return !refused_;
 }
 
-/// What is read by the time that a film begins was read then, too: scenes, archives, shaders. Textures and
-/// maps follow, and may have been read no sooner.
+/// What is read by the time that a finished world ends, or that a film begins of which there are tiles, was
+/// read then, too: scenes, archives, shaders. Textures and maps follow, and may have been read no sooner.
 void Checkpoint::refuse_what_is_new() {
     const std::set<std::string> written = written_paths();
     std::set<std::string> known;

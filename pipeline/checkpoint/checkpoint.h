@@ -42,7 +42,8 @@ class Checkpoint final : public FilmKeeper {
     /// Whether the run is not to go on, as what is saved is of another one.
     bool refused() const { return refused_; }
 
-    /// World `index` of the input, from 0, is the next; what is known of it if it was rendered before.
+    /// World `index` of the input, from 0, has been read and is the next; what is known of it if it was
+    /// rendered before. refused() after it where it reads what it did not read then.
     const FinishedWorld* begin_world(size_t index);
     void finish_world(FinishedWorld world, const std::map<std::string, int>& kept);
     /// Whether a request for a map, counted from 0, was carried out before.

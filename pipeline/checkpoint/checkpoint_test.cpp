@@ -6,9 +6,11 @@
 #include <filesystem>
 #include <fstream>
 
+#include "composite/film/film.h"
 #include "core/files/file_text_harness.h"
 #include "core/files/temporary_folder_harness.h"
 #include "core/random.h"
+#include "pipeline/frame/make_context.h"
 
 namespace trapeze {
 namespace {
@@ -165,6 +167,46 @@ TEST(Checkpoint, KnowsTheWorldsAndMapsOfARunThatEndedEarly) {
     write_file(path, "somebody's");
     EXPECT_FALSE(Checkpoint(settings, reads, diagnostics).can_write());
     EXPECT_EQ(file_text(path), "somebody's");
+}
+
+/// A run that ended between two worlds: the second may read what the first did not, the first may not.
+TEST(Checkpoint, RefusesWhatAFinishedWorldDidNotRead) {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("a.checkpoint"), scene = folder.file("a.rib"),
+                      shader = folder.file("red.sl");
+    for (const std::string& file : {scene, shader}) write_file(file, "text");
+    const CheckpointSettings settings{path, 1000, true, {"1", "r", {}, {}}};
+    const Scene of_picture;
+    const RenderSettings of_frame;
+    Diagnostics diagnostics;
+    const auto run = [&](const auto& steps) {
+        const auto reads = std::make_shared<ReadNames>();
+        reads->add(scene);
+        Checkpoint checkpoint(settings, reads, diagnostics);
+        ASSERT_TRUE(checkpoint.open());
+        steps(checkpoint, *reads);
+    };
+    run([&](Checkpoint& checkpoint, ReadNames&) {
+        EXPECT_FALSE(checkpoint.begin_world(0));
+        checkpoint.finish_world({false, true, {}}, {});
+        checkpoint.save_at_end();
+    });
+    run([&](Checkpoint& checkpoint, ReadNames& reads) {
+        EXPECT_TRUE(checkpoint.begin_world(0));
+        reads.add(shader);
+        EXPECT_FALSE(checkpoint.begin_world(1));
+        const RenderContext context = make_context(of_picture, of_frame, diagnostics);
+        Film film(context);
+        EXPECT_TRUE(checkpoint.begin(film));
+        EXPECT_FALSE(checkpoint.refused());
+        EXPECT_EQ(diagnostics.count(Severity::Error), 0u);
+    });
+    run([&](Checkpoint& checkpoint, ReadNames& reads) {
+        reads.add(shader);
+        EXPECT_TRUE(checkpoint.begin_world(0));
+        EXPECT_TRUE(checkpoint.refused());
+        EXPECT_EQ(diagnostics.count(Severity::Error), 1u);
+    });
 }
 
 TEST(Checkpoint, SavesNowAndThenUntilAFileChanges) {
