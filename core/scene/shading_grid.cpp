@@ -71,12 +71,6 @@ bool all_opaque(const Triples& opacity, size_t count) {
     return true;
 }
 
-/// Whether the primitive's surface turns to the viewer: it then has no back.
-bool faces_the_eye(const Shape& shape) {
-    if (std::holds_alternative<Points>(shape.topology)) return true;
-    return std::holds_alternative<Curves>(shape.topology) && !shape.variables.find("N");
-}
-
 /// The rays about one that has met something after `way`, told from it and the two beside it.
 class RaysBeside {
   public:
@@ -151,6 +145,11 @@ MotionTurn turn_of(const ShadingGrid& grid, std::span<const M44f> held) {
 Facing facing_for_sides(int sides, bool reverse_orientation) {
     if (sides != 1) return Facing::Both;
     return reverse_orientation ? Facing::PositiveOnly : Facing::NegativeOnly;
+}
+
+bool faces_the_eye(const Shape& shape) {
+    if (std::holds_alternative<Points>(shape.topology)) return true;
+    return std::holds_alternative<Curves>(shape.topology) && !shape.variables.find("N");
 }
 
 PackOptions pack_options(const Scene& scene, const Primitive& primitive) {

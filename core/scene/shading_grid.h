@@ -21,6 +21,7 @@ namespace trapeze {
 class MotionTurn;
 struct Primitive;
 struct Scene;
+struct Shape;
 
 /// Three planes of floats: points, vectors, normals or colours.
 struct Triples {
@@ -169,6 +170,10 @@ struct PackOptions {
     bool both_sides = false;        ///< hit from both, whatever Sides
     bool float_colors = false;      ///< colours are kept as floats, not as halves
 };
+
+/// Whether the primitive's surface turns to the viewer, as points do and curves without normals: it then has
+/// no back.
+bool faces_the_eye(const Shape& shape);
 
 /// What a scene asks of a primitive's grids, but for float_colors. Hits behind a grid are kept where samples
 /// may not see what they hit there: it may be cut away, or be of another level of detail than theirs; and

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/hit_micropolygon.h"
+#include "core/scene/shading_grid.h"
 
 namespace trapeze {
 namespace {
@@ -40,16 +41,19 @@ bool RayHits::from_outside(const PlacedRay& placed, const V3f& direction, const 
     return normal.dot(direction) <= 0;
 }
 
-/// One-sided surfaces have no inside, and a ray may want groups or sides of its own choice.
+/// One-sided surfaces have no inside, but for those that turn to the eye, which have no back; and a ray may
+/// want groups or sides of its own choice.
 bool RayHits::shows(const RaySegment& ray, const PlacedRay& placed, const RayGridHit& found) const {
     using Sides = RayFilter::Sides;
     const uint32_t number = primitive(placed, *found.grid);
-    if (dicer_.context().scene->primitives[number].solid >= 0) return true;  // the whole solid has sides
+    const Primitive& own = dicer_.context().scene->primitives[number];
+    if (own.solid >= 0) return true;  // the whole solid has sides
     const Attributes& attributes = dicer_.attributes(number);
     if (ray.only && !ray.only->admits(attributes.rays.groups)) return false;
     if (ray.only && ray.only->with_inside && !attributes.interior) return false;
     Sides sides = ray.only ? ray.only->sides : Sides::OfAttributes;
-    if (sides == Sides::OfAttributes) sides = attributes.sides == 1 ? Sides::Front : Sides::Both;
+    if (sides == Sides::OfAttributes)
+        sides = attributes.sides == 1 && !faces_the_eye(own.shape()) ? Sides::Front : Sides::Both;
     if (sides == Sides::Both) return true;
     return from_outside(placed, ray.direction, found) == (sides == Sides::Front);
 }
