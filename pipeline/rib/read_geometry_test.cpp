@@ -313,5 +313,18 @@ TEST(ReadGeometry, SingularAndOverflowingSpacesAreReported) {
     }
 }
 
+/// RISpec, table 5.1: the normal of a face. "N" says more where both are given.
+TEST(ReadGeometry, PlanarNormalsAreNormals) {
+    const ReadOutcome r = read_world("Polygon " + kQuad + "\"Np\" [0 .6 .8] Polygon " + kQuad +
+                                     "\"Np\" [0 .6 .8] \"N\" [0 0 1 0 0 1 0 0 1 0 0 1]");
+    EXPECT_THAT(r.messages, IsEmpty());
+    const Parameter* alone = r.primitive(0).shape().variables.find("N");
+    ASSERT_NE(alone, nullptr);
+    EXPECT_EQ(alone->floats, (std::vector<float>{0, .6f, .8f}));
+    EXPECT_EQ(alone->declaration.storage, StorageClass::Uniform);
+    EXPECT_EQ(r.primitive(1).shape().variables.find("N")->floats.size(), 12u);
+    EXPECT_EQ(r.primitive(1).shape().variables.find("Np"), nullptr);
+}
+
 }  // namespace
 }  // namespace trapeze::testing

@@ -369,5 +369,20 @@ TEST(ReadState, MisplacedRequestsAreSkipped) {
     }
 }
 
+TEST(ReadState, HidersThatSeeOtherThingsAreSaid) {
+    for (const std::string name : {"hidden", "raytrace", "stochastic", "zbuffer"})
+        EXPECT_THAT(read_text("Hider \"" + name + "\" WorldBegin WorldEnd").messages, ::testing::IsEmpty());
+    for (const std::string name : {"paint", "foo"})
+        EXPECT_THAT(read_text("Hider \"" + name + "\" WorldBegin WorldEnd").messages,
+                    ElementsAre(::testing::HasSubstr("there is no hider \"" + name + "\"")));
+}
+
+TEST(ReadState, ExposureSaysWhichNumberIsWrong) {
+    EXPECT_THAT(read_text("Exposure -1 1 WorldBegin WorldEnd").messages,
+                ElementsAre(::testing::HasSubstr("needs a gain that is not negative")));
+    EXPECT_THAT(read_text("Exposure 1 0 WorldBegin WorldEnd").messages,
+                ElementsAre(::testing::HasSubstr("needs a positive gamma")));
+}
+
 }  // namespace
 }  // namespace trapeze::testing

@@ -219,7 +219,8 @@ void pixel_filter(OptionContext& r, ArgumentCursor& c) {
 void exposure(OptionContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(2, "the exposure");
     const float gain = v[0], gamma = v[1];
-    require(gain >= 0 && gamma > 0, "needs a positive gamma");
+    require(gain >= 0, "needs a gain that is not negative");
+    require(gamma > 0, "needs a positive gamma");
     changeable_options(r).exposure_gain = gain;
     r.state.options().exposure_gamma = gamma;
 }
@@ -263,10 +264,15 @@ void imager(OptionContext& r, ArgumentCursor& c) {
 
 /// Hider type parameters: the samples of a path tracer's count where PixelSamples has not been given. What it
 /// is called does not choose a method of visibility: that is the command line's, as hiders of other renderers
-/// have names of their own.
+/// have names of their own. What they find is the same; others', RISpec's painter among them, is not.
 void hider(OptionContext& r, ArgumentCursor& c) {
     Options& o = changeable_options(r);
     o.hider = c.string("the hider's name");
+    constexpr std::string_view kAlike[] = {"hidden", "raytrace", "stochastic", "zbuffer"};
+    if (std::ranges::find(kAlike, o.hider) == std::end(kAlike))
+        r.report.warn_once(
+            "there is no hider " + in_quotes(o.hider) + "; what is nearest is seen, as by \"hidden\"",
+            "hider-" + o.hider);
     o.hider_parameters = r.parameters(c, Undeclared::Guess);
     for (const Parameter& value : o.hider_parameters.values)
         if (!recognises_hider_parameter(value.name))

@@ -71,6 +71,16 @@ void split_st(RequestReport& report, ParameterList& list) {
     remove(list, "st");
 }
 
+/// "Np", the normal of a face (RISpec, table 5.1), is its "N" where none is given.
+void take_planar_normals(ParameterList& list) {
+    const Parameter* planar = list.find("Np");
+    if (!planar) return;
+    Parameter normals = *planar;
+    normals.name = "N";
+    remove(list, "Np");
+    if (!list.find("N")) list.set(std::move(normals));
+}
+
 /// A point at infinity cannot be diced.
 void check_weights(const Parameter& pw) {
     for (size_t i = 3; i < pw.floats.size(); i += 4)
@@ -174,6 +184,7 @@ ParameterList read_variables(RequestContext& context, ArgumentCursor& cursor, Po
     ParameterList list = context.parameters(cursor);
     if (list.values.empty()) return list;
     check_types(context.report, list);
+    take_planar_normals(list);
     choose_points(context.report, list, form);
     return list;
 }
