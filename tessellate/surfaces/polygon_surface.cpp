@@ -256,8 +256,9 @@ std::unique_ptr<Surface> surface_of(const Primitive& primitive, PolygonFaces fac
 std::unique_ptr<Surface> make_polygon_surface(const Primitive& primitive, Diagnostics& diagnostics) {
     if (!is_valid(primitive, diagnostics)) return nullptr;
     const auto& mesh = std::get<PolygonMesh>(primitive.shape().topology);
-    return surface_of(primitive, make_polygon_faces(mesh, primitive.shape().variables.find("P")->floats),
-                      FaceParameters::PlaceInObject, diagnostics);
+    std::vector<std::span<const float>> keys;
+    for (const auto& shape : primitive.shape_keys) keys.emplace_back(shape->variables.find("P")->floats);
+    return surface_of(primitive, make_polygon_faces(mesh, keys), FaceParameters::PlaceInObject, diagnostics);
 }
 
 /// For what makes meshes itself (Blobby): its quads are not flat, and must not be cut.

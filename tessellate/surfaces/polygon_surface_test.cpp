@@ -180,5 +180,51 @@ TEST(PolygonSurface, UniformVariablesFollowThePolygon) {
     for (size_t i = 1; i < faces.size(); ++i) EXPECT_EQ(faces[i], cage.sizes[i] == 4 ? 1 : 3);
 }
 
+/// Twice the area that triangles take at a key.
+double covered(const PolygonFaces& faces, const std::vector<float>& key) {
+    const auto at = [&](int vertex) {
+        const float* p = key.data() + 3 * static_cast<size_t>(vertex);
+        return V3d(p[0], p[1], p[2]);
+    };
+    double sum = 0;
+    for (size_t i = 0; i + 2 < faces.vertices.size(); i += 3) {
+        const V3d a = at(faces.vertices[i]);
+        sum += (at(faces.vertices[i + 1]) - a).cross(at(faces.vertices[i + 2]) - a).length();
+    }
+    return sum;
+}
+
+/// A hole that is a point as the shutter opens, and corners that are on a line then.
+TEST(PolygonFaces, AreCutAsFitsAllKeys) {
+    struct Moving {
+        std::vector<int> loops;
+        std::vector<float> open, close;
+        double area_at_close;
+    };
+    const Moving all[] = {
+        {{4, 4},
+         {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
+         {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, -.8f, -.8f, 0, .8f, -.8f, 0, .8f, .8f, 0, -.8f, .8f, 0},
+         4 - 2.56},
+        {{5},
+         {-1, -1, 0, 1, -1, 0, 1, 1, 0, 0, 1, 0, -1, 1, 0},
+         {-1, -1, 0, 1, -1, 0, 1, 1, 0, 0, -.9f, 0, -1, 1, 0},
+         4 - 1.9}};
+    for (const Moving& moving : all) {
+        PolygonMesh mesh;
+        mesh.loops_per_polygon = {static_cast<int>(moving.loops.size())};
+        mesh.vertices_per_loop = moving.loops;
+        mesh.vertex_count = static_cast<int>(moving.open.size() / 3);
+        for (int i = 0; i < mesh.vertex_count; ++i) mesh.vertices.push_back(i);
+        const std::span<const float> opens_first[] = {moving.open, moving.close},
+                                     closes_first[] = {moving.close, moving.open};
+        for (const auto& keys : {opens_first, closes_first}) {
+            const PolygonFaces faces = make_polygon_faces(mesh, std::span(keys, 2));
+            EXPECT_NEAR(covered(faces, moving.open), 2 * 4, 1e-6);
+            EXPECT_NEAR(covered(faces, moving.close), 2 * moving.area_at_close, 1e-6);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace trapeze

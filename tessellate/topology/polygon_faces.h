@@ -19,8 +19,9 @@ struct PolygonFaces {
 };
 
 /// Convex planar quads stay whole, all else becomes triangles, which run the way of their polygon and name
-/// its vertices only. Faces that would name a vertex twice are left out. `positions`: three floats a vertex.
-PolygonFaces make_polygon_faces(const PolygonMesh& mesh, std::span<const float> positions);
+/// its vertices only. Faces that would name a vertex twice are left out. `keys`: one or more, three floats a
+/// vertex; what is cut is cut as it covers the polygon best over all of them, else as at the first.
+PolygonFaces make_polygon_faces(const PolygonMesh& mesh, std::span<const std::span<const float>> keys);
 
 /// Polygons of three and four corners without holes as they are: quads stay whole, flat or not.
 PolygonFaces make_whole_faces(const PolygonMesh& mesh);
