@@ -229,13 +229,22 @@ TEST(StandardHeaders, ManifoldsAreFiltered) {
         V3f(0.5f, 1, 0.2f));
 }
 
+TEST(StandardHeaders, NormalsForShadingTurnToTheViewer) {
+    expect_near_triple(
+        result_of("#include \"normals.h\"",
+                  "normal turned = shadingnormal(2 * N); a = turned . normalize(-I) > 0 ? 1 : 0;"
+                  "b = length(turned); c = abs(turned . normalize(N));"),
+        V3f(1, 1, 1));
+}
+
 /// Every header alone, twice and with all the others: whatever order shaders take them in.
 TEST(StandardHeaders, EachStandsAloneAndBesideTheOthers) {
     std::string all;
-    for (const char* name : {"antialiasing.h", "displace.h",    "filterwidth.h", "locillum.h", "material.h",
-                             "materials.h",    "noises.h",      "oak.h",         "patterns.h", "project.h",
-                             "pshad.h",        "pxslRayUtil.h", "pxslRemap.h",   "pxslUtil.h", "rayserver.h",
-                             "raysphere.h",    "reflections.h", "textures.h",    "voronoi.h",  "wood.h"}) {
+    for (const char* name :
+         {"antialiasing.h", "displace.h",  "filterwidth.h", "locillum.h",  "material.h",  "materials.h",
+          "noises.h",       "normals.h",   "oak.h",         "patterns.h",  "project.h",   "pshad.h",
+          "pxslRayUtil.h",  "pxslRemap.h", "pxslUtil.h",    "rayserver.h", "raysphere.h", "reflections.h",
+          "textures.h",     "voronoi.h",   "wood.h"}) {
         const std::string line = "#include \"" + std::string(name) + "\"\n";
         EXPECT_EQ(result_of(line + line, "a = 1;"), V3f(1, 0, 0)) << name;
         all = line + all;

@@ -246,15 +246,9 @@ void copy_array(Run& run, const Step& step, std::span<const Operand> operands) {
 void array_spline(Run& run, const Step& step, std::span<const Operand> operands) {
     const Operand &out = operands[0], &count = operands[4];
     const std::string& name = run.registers().text_input(step, 0);
-    std::optional<SplineBasis> basis = spline_basis(name);
-    if (!basis) {
-        run.warn(step, fmt::format("there is no spline basis \"{}\"; catmull-rom is used", name),
-                 fmt::format("rsl-unknown-basis {}", name));
-        basis = SplineBasis::CatmullRom;
-    }
     const Array array(run, step, 3);
     const int width = static_cast<int>(array.width());
-    const Kernel kernel = find_spline_kernel(*basis, width);
+    const Kernel kernel = spline_or_usual(run, step, name, width);
     if (!kernel) return;
     const size_t plane = plane_size(run, out), lanes = count.lane_mask ? plane : 1;
     Operand knots = operands[3], result = out;

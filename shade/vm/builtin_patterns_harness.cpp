@@ -125,6 +125,7 @@ void add_derivatives(std::vector<BuiltinCase>& cases) {
     const auto alone = TRAPEZE_GIVES(2 * x - y);
     cases.push_back({"r = gridmin(X * 2 - Y);", TRAPEZE_GIVES(-1), 1e-5, alone});
     cases.push_back({"r = gridmax(X * 2 - Y);", TRAPEZE_GIVES(2), 1e-5, alone});
+    cases.push_back({"r = gridavg(X * 2 - Y);", TRAPEZE_GIVES(.5), 1e-5, alone});
     cases.push_back({"r = area(point (X, Y, 4));", TRAPEZE_GIVES(1.0 / 6), 1e-6, zero});
     cases.push_back({"r = area(point (X, Y, 4), \"dicing\");", TRAPEZE_GIVES(1.0 / 6), 1e-6, zero});
     cases.push_back(

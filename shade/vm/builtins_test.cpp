@@ -219,6 +219,35 @@ TEST(Builtins, Splines) {
         1e-5f);
 }
 
+/// Where a curve has a value, and the value there, are each other's inverse; what rises and what falls.
+TEST(Builtins, SplinesAreSolved) {
+    const auto same = [](float s, float) { return s; };
+    for (const std::string basis : {"catmull-rom", "catmullrom", "bspline", "b-spline", "linear"})
+        for (const std::string knots : {"-1, 0, .2, .7, 1, 1.5", "2, 1, .9, .3, 0, -1"}) {
+            const std::string place = "spline(\"" + basis + "\", s, " + knots + ")";
+            expect_values("r = spline(\"solve" + basis + "\", " + place + ", " + knots + ");", same, 1e-5f);
+            expect_values(
+                "float k[6] = {" + knots + "}; r = spline(\"solve" + basis + "\", " + place + ", k);", same,
+                1e-5f);
+        }
+    expect_values("r = spline(\"solvebezier\", spline(\"bezier\", s, 0, .3, .6, 1), 0, .3, .6, 1);", same,
+                  1e-5f);
+    expect_values("r = spline(\"solvehermite\", spline(\"hermite\", s, 0, 1, 1, 1), 0, 1, 1, 1);", same,
+                  1e-5f);
+    // Beyond its ends it is at them, exactly.
+    expect_values(
+        "r = spline(\"solvelinear\", -7, 0, 0, 1, 1) + spline(\"solvelinear\", 7, 0, 0, 1, 1);",
+        [](float, float) { return 1; }, 0);
+    expect_values(
+        "r = spline(\"solvelinear\", 7, 1, 1, 0, 0) + spline(\"solvelinear\", -7, 1, 1, 0, 0);",
+        [](float, float) { return 1; }, 0);
+    // As shaders use it: keys of their own, and values at them.
+    expect_values(
+        "float k[6] = {0, 0, .1, .3, 1, 1}; float v[6] = {0, 0, 1.3, 4.2, 6.4, 6.4};"
+        "r = spline(\"catmull-rom\", spline(\"solvecatmull-rom\", .3, k), v);",
+        [](float, float) { return 4.2f; }, 1e-4f);
+}
+
 TEST(Builtins, TextsAreFormattedAndCompared) {
     ShaderRun run(
         "surface test(output uniform string name = \"\"; output varying float r = 0;) {"

@@ -52,6 +52,10 @@ WaitingOp find_waiting_ray_op(rsl::Op op);
 /// Says that a call of an imager sends no rays: it finds what there is where there is nothing.
 void warn_of_no_rays(Run& run, const Step& step);
 
+/// The kernel of a spline() whose basis a text names; that of the usual basis, and a warning, where there is
+/// none.
+Kernel spline_or_usual(Run& run, const Step& step, const std::string& name, int width);
+
 /// Floats in a plane of an operand.
 inline size_t plane_size(const Run& run, const Operand& operand) {
     return operand.lane_mask ? run.lanes() : kLanes;

@@ -43,20 +43,25 @@ void convert_color(Run& run, const Step& step, std::span<const Operand> operands
     kernel(step.varying ? run.lanes() : kLanes, both);
 }
 
+}  // namespace
+
+Kernel spline_or_usual(Run& run, const Step& step, const std::string& name, int width) {
+    if (const Kernel kernel = find_named_spline(name, width)) return kernel;
+    run.warn(step, fmt::format("there is no spline basis \"{}\"; catmull-rom is used", name),
+             fmt::format("rsl-unknown-basis {}", name));
+    return find_spline_kernel(SplineBasis::CatmullRom, width);
+}
+
+namespace {
+
 /// spline() with a basis; without one it is a kernel. The kernel has no operand for the name, so the list is
 /// passed on without it.
 void spline(Run& run, const Step& step, std::span<const Operand> operands) {
     const std::string& name = run.registers().text_input(step, 0);
-    std::optional<SplineBasis> basis = spline_basis(name);
-    if (!basis) {
-        run.warn(step, fmt::format("there is no spline basis \"{}\"; catmull-rom is used", name),
-                 fmt::format("rsl-unknown-basis {}", name));
-        basis = SplineBasis::CatmullRom;
-    }
     std::vector<Operand> others(operands.begin(), operands.end());
     others.erase(others.begin() + step.outputs);
     const int width = rsl::width_of(run.registers().reg(run.registers().register_of(step, 0)).type.base);
-    if (const Kernel kernel = find_spline_kernel(*basis, width))
+    if (const Kernel kernel = spline_or_usual(run, step, name, width))
         kernel(step.varying ? run.lanes() : kLanes, others);
 }
 

@@ -1,6 +1,7 @@
 // Operations that look at the vertices next to each one, and depth().
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "shade/vm/context_ops.h"
 #include "shade/vm/kernels/neighbours.h"
@@ -52,16 +53,24 @@ void area(Run& run, const Step& step, std::span<const Operand> operands) {
     for (size_t i = 0; i < run.lanes(); ++i) operands[0].data[i] *= widening[i];
 }
 
-/// gridmin(x) and gridmax(x): of all vertices of the grid, whatever block of the shader they are in.
-void extremes(Run& run, const Step& step, std::span<const Operand> operands) {
+/// Of numbers in order, so that it does not depend on how many are added at once.
+float mean_of(std::span<const float> values) {
+    const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+    return static_cast<float>(sum / static_cast<double>(values.size()));
+}
+
+/// gridmin(x), gridmax(x) and gridavg(x): of all vertices of the grid, whatever block of the shader they are
+/// in.
+void of_grid(Run& run, const Step& step, std::span<const Operand> operands) {
     const Operand &out = operands[0], &x = operands[1];
     if (!out.lane_mask) return fill_operand(run, out, std::span(x.data, 1));
     // What belongs to no grid has no others beside it.
     for (size_t i = 0; i < run.lanes(); ++i) out.data[i] = Run::at(x, 0, i);
     for (const GridSpan& span : spans_of(run)) {
         const std::span values(out.data + span.first, static_cast<size_t>(span.shape.vertex_count()));
-        std::ranges::fill(values, step.op == Op::GridMin ? *std::ranges::min_element(values)
-                                                         : *std::ranges::max_element(values));
+        std::ranges::fill(values, step.op == Op::GridMin   ? *std::ranges::min_element(values)
+                                  : step.op == Op::GridMax ? *std::ranges::max_element(values)
+                                                           : mean_of(values));
     }
 }
 
@@ -119,9 +128,10 @@ void depth(Run& run, const Step&, std::span<const Operand> operands) {
 }
 
 constexpr ContextRow kNeighbourRows[] = {
-    {Op::Du, differences},   {Op::Dv, differences},          {Op::Deriv, differences},
-    {Op::Area, area},        {Op::CalculateNormal, normals}, {Op::FilterStep, filtered_step},
-    {Op::GridMin, extremes}, {Op::GridMax, extremes},        {Op::Depth, depth},
+    {Op::Du, differences},  {Op::Dv, differences},          {Op::Deriv, differences},
+    {Op::Area, area},       {Op::CalculateNormal, normals}, {Op::FilterStep, filtered_step},
+    {Op::GridMin, of_grid}, {Op::GridMax, of_grid},         {Op::GridAverage, of_grid},
+    {Op::Depth, depth},
 };
 
 }  // namespace

@@ -19,6 +19,7 @@ constexpr HeaderNote kHeaders[] = {
      "vfBm, VLfBm, turbulence, fBm_default, vfBm_default, VLfBm_default, turbulence_default, voronoi_f1_2d, "
      "voronoi_f1f2_2d, voronoi_f1_3d, voronoi_f1f2_3d",
      "variants with a parameter of time, but filteredsnoiset"},
+    {"normals.h", "shadingnormal", ""},
     {"oak.h", "oaktexture", ""},
     {"patterns.h",
      "boxstep, sqr, filteredabs, smoothstepintegral, filteredsmoothstep, pulse, filteredpulse, pulsetrain, "

@@ -399,5 +399,21 @@ TEST(Builtins, HaveReadableSignatures) {
     EXPECT_EQ(together, builtins().size());  // overloads of a name stand together
 }
 
+/// Functions of the source come first, but not where a float would have to become a colour for them, nor in
+/// their own bodies.
+TEST(Analysis, FunctionsOfTheSourceStandBesideThoseOfTheLanguage) {
+    const std::string exponential =
+                          "color exp(color c) { return color (exp(c[0]), exp(c[1]), exp(c[2])); }\n",
+                      mixed = "color mix(color a, b, k) { return a * (1 - k) + b * k; }\n",
+                      sloping = "float smoothstep(float a, b, x) { return 7; }\n";
+    EXPECT_EQ(said(exponential + "surface a() { Ci = exp(-Cs) + exp(2); float f = exp(1); }"), "");
+    EXPECT_EQ(
+        said(mixed + "surface a() { float f = mix(1.0, 3.0, .5); Ci = mix(Cs, Cs, Cs) + mix(Cs, Cs, f); }"),
+        "");
+    EXPECT_EQ(said(sloping + "surface a() { Ci = smoothstep(0, 1, s); }"), "");
+    EXPECT_THAT(said("color twice(color c) { return twice(c); } surface a() { Ci = twice(Cs); }"),
+                ::testing::HasSubstr("calls itself"));
+}
+
 }  // namespace
 }  // namespace trapeze::rsl

@@ -176,6 +176,7 @@ constexpr Builtin kBuiltins[] = {
     {"area", 'f', "ps", Op::Area},
     {"gridmin", 'f', "f", Op::GridMin},  // PRMan's
     {"gridmax", 'f', "f", Op::GridMax},
+    {"gridavg", 'f', "f", Op::GridAverage},
     {"faceforward", 'v', "vv", Op::FaceForward},
     {"faceforward", 'v', "vvv", Op::FaceForward},
     {"reflect", 'v', "vv", Op::Reflect},

@@ -22,6 +22,16 @@ bool is_map(const Builtin& builtin) {
     return row_of(builtin.op).context == ContextFamily::Maps;
 }
 
+/// What a built-in function may cost at most to be meant, where functions of the source fit: these hide it,
+/// unless a float, say, would have to become a colour for them. Functions are polymorphic by their arguments'
+/// types (RISpec 14.2).
+int most_beside(const std::vector<Signature>& all, const std::vector<int>& costs) {
+    int least = Choices::kNever + kFillCost;
+    for (size_t i = 0; i < all.size(); ++i)
+        if (all[i].function && costs[i] < Choices::kNever) least = std::min(least, costs[i]);
+    return least - kFillCost;
+}
+
 /// The parameter that argument i stands for; null behind them, where more may follow.
 const Signature::Parameter* parameter_at(const Signature& signature, size_t i) {
     if (i < signature.parameters.size()) return &signature.parameters[i];
@@ -44,22 +54,30 @@ bool is_pair_name(const Signature& signature, size_t i) {
 
 /// All functions that the name may mean, those of the source first. Nested functions see those of the bodies
 /// around them, but a function of the file sees none of its caller's: the walk outwards ends at the first
-/// body that is not nested.
+/// body that is not nested. No function calls itself: in its own body the name means the built-in ones.
 std::vector<Signature> Analyser::candidates(const Expression& call) {
     std::vector<Signature> all;
+    const auto built_in = builtins_named(call.text);
+    const auto is_meant = [&](const Instance* instance) {
+        return built_in.empty() || !instance || instance->complete;
+    };
     for (size_t number = bodies_.size();;) {  // nested ones, from the inside out
         const Body& at = bodies_[--number];
         const size_t last = number + 1 < bodies_.size() ? bodies_[number + 1].first_scope : scopes_.size();
         for (size_t i = last; i-- > at.first_scope;)
             if (const auto entry = scopes_[i].functions.find(call.text); entry != scopes_[i].functions.end())
                 for (const Instance* instance : entry->second)
-                    all.push_back(signature_of(*instance->function));
+                    if (is_meant(instance)) all.push_back(signature_of(*instance->function));
         if (number == 0 || !at.nested) break;
     }
     const auto entry = file_functions_.find(call.text);
     if (entry != file_functions_.end())
-        for (const Function* function : entry->second) all.push_back(signature_of(*function));
-    for (const Builtin& builtin : builtins_named(call.text)) all.push_back(signature_of(builtin));
+        for (const Function* function : entry->second) {
+            const auto known = file_instances_.find(function);
+            if (is_meant(known == file_instances_.end() ? nullptr : known->second))
+                all.push_back(signature_of(*function));
+        }
+    for (const Builtin& builtin : built_in) all.push_back(signature_of(builtin));
     return all;
 }
 
@@ -139,15 +157,12 @@ Choices Analyser::call_types(Expression& e) {
         unknown_function(e);
         return Choices::unknown();
     }
-    // The functions of the source hide built-in ones that fit as well.
     Choices choices;
-    bool found = false;
     const std::vector<int> costs = costs_of(all, e);
-    for (size_t i = 0; i < all.size(); ++i) {
-        if (costs[i] >= Choices::kNever || (all[i].builtin && found)) continue;
-        found = found || !all[i].builtin;
-        choices.offer(all[i].result.base, costs[i]);
-    }
+    const int most = most_beside(all, costs);
+    for (size_t i = 0; i < all.size(); ++i)
+        if (costs[i] < Choices::kNever && (all[i].function || costs[i] <= most))
+            choices.offer(all[i].result.base, costs[i]);
     if (!choices.none()) return choices;
     if (!unknown) explain(all, e);
     return Choices::unknown();
@@ -283,9 +298,10 @@ void Analyser::choose_call(Expression& e, Base base) {
     const Signature* best = nullptr;
     int least = Choices::kNever;
     const std::vector<int> costs = costs_of(all, e);
+    const int most = most_beside(all, costs);
     for (size_t i = 0; i < all.size(); ++i) {
-        // As in call_types(): a function of the source that fits hides the built-in ones.
-        if (all[i].result.base != base || (all[i].builtin && best && !best->builtin)) continue;
+        if (all[i].result.base != base || (all[i].builtin && costs[i] > most))
+            continue;  // as in call_types()
         if (costs[i] < least) best = &all[i], least = costs[i];
     }
     if (!best) return;  // reported

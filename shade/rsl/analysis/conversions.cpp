@@ -10,7 +10,7 @@ namespace {
 // and normals; kUnusual: where a point is involved; kTruth: between a condition and a float; kFill: a float
 // becomes all three components; kFillMatrix: a float becomes the diagonal; kOdd: operators on triples that
 // are seldom meant (products of vectors).
-constexpr int kSameFamily = 1, kUnusual = 2, kTruth = 3, kFill = 4, kFillMatrix = 5, kOdd = 6;
+constexpr int kSameFamily = 1, kUnusual = 2, kTruth = 3, kFill = kFillCost, kFillMatrix = 5, kOdd = 6;
 
 /// What coordinate systems move: points, vectors and normals.
 bool is_geometric(Base base) {

@@ -62,6 +62,9 @@ class Choices {
     bool unknown_ = false;
 };
 
+/// What it costs to make all three components of a float.
+inline constexpr int kFillCost = 4;
+
 /// More than any conversion: what only overloads that are a last resort cost.
 inline constexpr int kLastResort = 16;
 

@@ -81,37 +81,74 @@ HWY_INLINE void gather(const Operand& array, int step, V segment, size_t i, int 
         out[j] = hn::GatherIndex(D(), data + j * distance, hn::Add(first, hn::Iota(di, 0)));
 }
 
+/// The curve at a value from 0 to 1 of each of the lanes from i on.
+HWY_INLINE void curve_at(const SplineRule& rule, int width, const Knots& knots, size_t i, V value,
+                         V (&results)[3]) {
+    const int segments = (knots.count() - 4) / rule.step + 1;
+    // Segments are equally long in the value; at 1 the last one ends.
+    const V t = hn::Mul(value, set(static_cast<float>(segments)));
+    const V segment = at_most(hn::Floor(t), set(static_cast<float>(segments - 1)));
+    const V f = hn::Sub(t, segment);
+    V weights[4];
+    for (int j = 0; j < 4; ++j)
+        weights[j] = step(step(step(set(rule.matrix[0][j]), f, rule.matrix[1][j]), f, rule.matrix[2][j]), f,
+                          rule.matrix[3][j]);
+    for (int k = 0; k < width; ++k) {
+        V near[4];
+        if (knots.array && segments > kFewSegments)
+            gather(knots.operands[0], rule.step, segment, i, k, near);
+        else
+            pick_in_turn(knots, rule.step, segments, segment, i, k, near);
+        results[k] = hn::Mul(weights[0], near[0]);
+        for (int j = 1; j < 4; ++j) results[k] = hn::Add(results[k], hn::Mul(weights[j], near[j]));
+    }
+}
+
 /// One function for all bases and widths: what differs is a table, which costs less than twelve copies of the
 /// loop. Fewer than four knots have no segment, and give 0.
 HWY_NOINLINE void run_spline(const SplineRule& rule, int width, size_t lanes, Operands o) {
     const Output out(o[0]);
     const Input value(o[1]);
     const Knots knots(o);
-    const int segments = (knots.count() - 4) / rule.step + 1;
+    for (size_t i = 0; i < lanes; i += lane_count()) {
+        V results[3] = {hn::Zero(D()), hn::Zero(D()), hn::Zero(D())};
+        if (knots.count() >= 4)
+            curve_at(rule, width, knots, i, at_most(positive(value.get(i)), set(1)), results);
+        for (int k = 0; k < width; ++k) out.put(results[k], i, k);
+    }
+}
+
+/// Where in 0..1 the curve, which rises or falls throughout, has a value; the nearer end for what it has
+/// nowhere.
+HWY_NOINLINE void solve_spline(const SplineRule& rule, size_t lanes, Operands o) {
+    constexpr int kHalvings = 25;  // down to what floats below 1 tell apart
+    const Output out(o[0]);
+    const Input value(o[1]);
+    const Knots knots(o);
     for (size_t i = 0; i < lanes; i += lane_count()) {
         if (knots.count() < 4) {
-            for (int k = 0; k < width; ++k) out.put(hn::Zero(D()), i, k);
+            out.put(hn::Zero(D()), i, 0);
             continue;
         }
-        // Segments are equally long in the value; at 1 the last one ends.
-        const V t = hn::Mul(at_most(positive(value.get(i)), set(1)), set(static_cast<float>(segments)));
-        const V segment = at_most(hn::Floor(t), set(static_cast<float>(segments - 1)));
-        const V f = hn::Sub(t, segment);
-        V weights[4];
-        for (int j = 0; j < 4; ++j)
-            weights[j] = step(step(step(set(rule.matrix[0][j]), f, rule.matrix[1][j]), f, rule.matrix[2][j]),
-                              f, rule.matrix[3][j]);
-        V results[3];
-        for (int k = 0; k < width; ++k) {
-            V near[4];
-            if (knots.array && segments > kFewSegments)
-                gather(o[2], rule.step, segment, i, k, near);
-            else
-                pick_in_turn(knots, rule.step, segments, segment, i, k, near);
-            results[k] = hn::Mul(weights[0], near[0]);
-            for (int j = 1; j < 4; ++j) results[k] = hn::Add(results[k], hn::Mul(weights[j], near[j]));
+        const V wanted = value.get(i);
+        V first[3], last[3], there[3];
+        curve_at(rule, 1, knots, i, hn::Zero(D()), first);
+        curve_at(rule, 1, knots, i, set(1), last);
+        const M falls = hn::Lt(last[0], first[0]);
+        V low = hn::Zero(D()), high = set(1);
+        for (int n = 0; n < kHalvings; ++n) {
+            const V middle = hn::Mul(hn::Add(low, high), set(0.5f));
+            curve_at(rule, 1, knots, i, middle, there);
+            const M beyond = hn::Xor(hn::Lt(there[0], wanted), falls);
+            low = hn::IfThenElse(beyond, middle, low), high = hn::IfThenElse(beyond, high, middle);
         }
-        for (int k = 0; k < width; ++k) out.put(results[k], i, k);
+        // Ends are met as they are.
+        const M at_last =
+            hn::Or(hn::And(falls, hn::Le(wanted, last[0])), hn::AndNot(falls, hn::Ge(wanted, last[0])));
+        const M at_first =
+            hn::Or(hn::And(falls, hn::Ge(wanted, first[0])), hn::AndNot(falls, hn::Le(wanted, first[0])));
+        const V found = hn::Mul(hn::Add(low, high), set(0.5f));
+        out.put(hn::IfThenElse(at_first, hn::Zero(D()), hn::IfThenElse(at_last, set(1), found)), i, 0);
     }
 }
 
@@ -141,6 +178,29 @@ Kernel find_of_width(SplineBasis basis) {
     return nullptr;
 }
 
+template <SplineBasis basis>
+void solve(size_t lanes, Operands o) {
+    solve_spline(kSplineRules[static_cast<size_t>(basis)], lanes, o);
+}
+
+Kernel find_inverse(SplineBasis basis) {
+    switch (basis) {
+        case SplineBasis::CatmullRom:
+            return solve<SplineBasis::CatmullRom>;
+        case SplineBasis::Bezier:
+            return solve<SplineBasis::Bezier>;
+        case SplineBasis::BSpline:
+            return solve<SplineBasis::BSpline>;
+        case SplineBasis::Hermite:
+            return solve<SplineBasis::Hermite>;
+        case SplineBasis::Linear:
+            return solve<SplineBasis::Linear>;
+        case SplineBasis::Constant:
+            break;  // it is level, and has no inverse
+    }
+    return nullptr;
+}
+
 Kernel find_spline(SplineBasis basis, int width) {
     return width == 1 ? find_of_width<1>(basis) : width == 3 ? find_of_width<3>(basis) : nullptr;
 }
@@ -164,6 +224,7 @@ HWY_AFTER_NAMESPACE();
 namespace trapeze::vm {
 
 HWY_EXPORT(find_spline);
+HWY_EXPORT(find_inverse);
 
 /// RISpec's names, and the spellings with and without a hyphen that shaders have.
 std::optional<SplineBasis> spline_basis(std::string_view name) {
@@ -178,6 +239,17 @@ std::optional<SplineBasis> spline_basis(std::string_view name) {
     return std::nullopt;
 }
 
+std::optional<SplineBasis> solved_spline_basis(std::string_view name) {
+    constexpr std::string_view kPrefix = "solve";
+    if (!name.starts_with(kPrefix)) return std::nullopt;
+    const auto basis = spline_basis(name.substr(kPrefix.size()));
+    return basis == SplineBasis::Constant ? std::nullopt : basis;
+}
+
+Kernel find_spline_inverse(SplineBasis basis) {
+    return HWY_DYNAMIC_DISPATCH(find_inverse)(basis);
+}
+
 int used_knots(SplineBasis basis, int count) {
     const int step = kSplineRules[static_cast<size_t>(basis)].step;
     return count < 4 ? 0 : 4 + (count - 4) / step * step;
@@ -185,6 +257,13 @@ int used_knots(SplineBasis basis, int count) {
 
 Kernel find_spline_kernel(SplineBasis basis, int width) {
     return HWY_DYNAMIC_DISPATCH(find_spline)(basis, width);
+}
+
+Kernel find_named_spline(std::string_view name, int width) {
+    if (const auto solved = solved_spline_basis(name))
+        return width == 1 ? find_spline_inverse(*solved) : nullptr;
+    const auto basis = spline_basis(name);
+    return basis ? find_spline_kernel(*basis, width) : nullptr;
 }
 
 }  // namespace trapeze::vm

@@ -16,6 +16,10 @@ enum class SplineBasis : uint8_t { CatmullRom, Bezier, BSpline, Hermite, Linear,
 /// The basis that shaders call `name`; nothing for an unknown name.
 std::optional<SplineBasis> spline_basis(std::string_view name);
 
+/// The basis whose curve PRMan's inverse "solvecatmull-rom" and the like are of; nothing for other names.
+/// "constant" has no inverse.
+std::optional<SplineBasis> solved_spline_basis(std::string_view name);
+
 /// Knots that a spline of `count` of them uses: 4 + a multiple of 3 (bezier) or 2 (hermite) or any number
 /// from 4. 0 for fewer than 4.
 int used_knots(SplineBasis basis, int count);
@@ -25,5 +29,13 @@ int used_knots(SplineBasis basis, int count);
 /// the first and the last knot for bezier and hermite, where knots are points and tangents in turns). Fewer
 /// than 4 knots give 0. Null for other widths.
 Kernel find_spline_kernel(SplineBasis basis, int width);
+
+/// The same operands, of width 1: where in 0..1 the curve has the value, which clamps to its ends. The curve
+/// has to rise or fall throughout; of others it is one of the places. Null for constant.
+Kernel find_spline_inverse(SplineBasis basis);
+
+/// What a shader's spline() with a basis of that name is: find_spline_kernel(), or find_spline_inverse() of
+/// one float. Null where there is none.
+Kernel find_named_spline(std::string_view name, int width);
 
 }  // namespace trapeze::vm

@@ -132,6 +132,10 @@ TEST(Spline, KnowsItsBases) {
     EXPECT_EQ(used_knots(SplineBasis::Hermite, 7), 6);
     EXPECT_EQ(used_knots(SplineBasis::Linear, 9), 9);
     EXPECT_EQ(used_knots(SplineBasis::Linear, 3), 0);
+    EXPECT_EQ(solved_spline_basis("solveb-spline"), SplineBasis::BSpline);
+    EXPECT_FALSE(solved_spline_basis("solveconstant") || solved_spline_basis("solve") ||
+                 solved_spline_basis("linear"));
+    EXPECT_FALSE(find_spline_inverse(SplineBasis::Constant) || find_named_spline("solvelinear", 3));
 }
 
 }  // namespace
