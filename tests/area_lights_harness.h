@@ -21,8 +21,9 @@ inline std::string asks(const std::string& expected) {
 /// A RIS light, in a block of its own.
 inline std::string ris(const std::string& light, const std::string& place, const std::string& parameters = "",
                        int samples = 256) {
-    return "AttributeBegin " + place + " Light \"" + light + "\" \"l\" \"int fixedSampleCount\" [" +
-           std::to_string(samples) + "] " + parameters + " AttributeEnd ";
+    return "AttributeBegin Attribute \"visibility\" \"int camera\" [0] " + place + " Light \"" + light +
+           "\" \"l\" \"int fixedSampleCount\" [" + std::to_string(samples) + "] " + parameters +
+           " AttributeEnd ";
 }
 
 /// The mean of what was found is that of what was expected within `of_mean`, over the picture; a point's

@@ -2,6 +2,7 @@
 // the arc that a point sees of the circle, in the light's own space, and over the length.
 #include <algorithm>
 
+#include "shade/lights/light_area.h"
 #include "shade/lights/light_sampler.h"
 #include "shade/lights/sphere_space.h"
 
@@ -16,10 +17,7 @@ class CylinderLight final : public LightSampler {
         : space_(camera_from_light),
           middle_(wide(camera_from_light.translation())),
           light_from_camera_(space_.is_regular() ? space_.matrix().inverse() : M44d()) {
-        // Periodic and smooth: even steps give all digits.
-        constexpr int kSteps = 256;
-        for (int i = 0; i < kSteps; ++i) area_ += area_normal(2 * kPi64 * i / kSteps).length();
-        area_ *= 2 * kPi64 * kRadius / kSteps;
+        area_ = area_of(LightShape::Kind::Cylinder, camera_from_light);
     }
 
     bool is_there() const { return space_.is_regular() && is_finite(middle_) && std::isfinite(area_); }

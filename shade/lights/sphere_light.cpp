@@ -2,6 +2,7 @@
 // takes in the light's own space; solid angles are then those of camera space.
 #include <algorithm>
 
+#include "shade/lights/light_area.h"
 #include "shade/lights/light_sampler.h"
 #include "shade/lights/sphere_space.h"
 
@@ -16,15 +17,10 @@ class SphereLight final : public LightSampler {
         : space_(camera_from_light),
           middle_(wide(camera_from_light.translation())),
           light_from_camera_(space_.is_regular() ? space_.matrix().inverse() : M44d()) {
-        const M44d& m = space_.matrix();
-        double squares = 0;
-        for (int row = 0; row < 3; ++row)
-            for (int column = 0; column < 3; ++column) squares += m[row][column] * m[row][column];
-        area_ = kPi64 / 3 * squares;
+        area_ = area_of(LightShape::Kind::Sphere, camera_from_light);
     }
 
     bool is_there() const { return space_.is_regular() && is_finite(middle_) && std::isfinite(area_); }
-    /// Of an ellipsoid it is about that: four circles of the mean square of its radii.
     float area() const override { return static_cast<float>(area_); }
 
     LightSample sample(const V3f& P, const V3f&, const V2f& square) const override {

@@ -63,6 +63,7 @@ const std::vector<Expected> kExpected = {
     {"shadowpoint", "light", {"sfpx = \"\"", "sfnz = \"\"", "samples = 16", "width = 1"}},
     {"occlusionlight", "light", {"intensity = 1", "lightcolor = 1", "envname = \"\"", "samples = 64"}},
     {"rislight", "light", {"intensity = 1", "lightcolor = 1", "coneangle = 90", "traceshadows = 1"}},
+    {"rislightsurface", "surface", {"radiance = 1", "focus = 0", "coneangle = 90", "conesoftness = 0"}},
     {"rissurface", "surface", {"specularcolor = 0", "emission = 0", "opacity = 1", "bounce = 0.15"}},
     {"standinlight",
      "light",

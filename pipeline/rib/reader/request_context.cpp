@@ -176,6 +176,10 @@ void LightContext::add_world_light(std::shared_ptr<const LightInstance> light) {
     scene_.add_world_light(std::move(light));
 }
 
+void LightContext::add_light_surface(const LightInstance& light) {
+    scene_.add_light_surface(light);
+}
+
 std::shared_ptr<const LightInstance> LightContext::light(const std::string& handle) const {
     return scene_.light(handle);
 }

@@ -1,9 +1,12 @@
 /// Lights that shine from shapes, and the path tracer's (RIS), which shine on all of a world, wherever they
 /// stand in it.
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <utility>
 
 #include "pipeline/rib/reader/scene_builder.h"
+#include "pipeline/rib/ris/ris_light_surfaces.h"
 #include "pipeline/rib/ris/ris_lights.h"
 #include "pipeline/rib/state/scene_size.h"
 
@@ -76,6 +79,28 @@ void SceneBuilder::add_world_light(std::shared_ptr<const LightInstance> light) {
     lights.push_back(std::move(light));
 }
 
+/// Shapes of lights are primitives like others, of one side, but that no ray of a shader meets them: it finds
+/// the light of them by samples. None in a motion block, in which a light is made once.
+void SceneBuilder::add_light_surface(const LightInstance& light) {
+    std::optional<LightSurface> surface = surface_of(light);
+    if (!surface || motion_.is_open() || !(state_.in_world() || object_)) return;
+    state_.open(BlockKind::Attribute, report_.at());
+    state_.current().transform.concat(M44d(surface->light_from_shape));
+    AttributeState& state = state_.change_attributes();
+    state.orientation = Orientation::Outside;
+    state.orientation_reversed = false;
+    state.emitter = nullptr;
+    state.displacement_bound = {};
+    Attributes& a = state.attributes;
+    a.color = a.opacity = V3f(1, 1, 1);
+    a.sides = light.shape->two_sided ? 2 : 1;
+    a.surface = std::make_shared<const ShaderInstance>(std::move(surface->shader));
+    a.displacement = a.interior = a.exterior = nullptr;
+    a.rays.diffuse = a.rays.specular = a.rays.transmission = false;
+    add_shape(kLightSurface, std::move(surface->shape), 1);
+    state_.close();
+}
+
 /// Lights of an object shine from where it is placed, once for each instance. Those that shine from the
 /// object's shapes get an emitter in each.
 SceneBuilder::PlacedEmitters SceneBuilder::place_lights(const RetainedObject& object) {
@@ -139,6 +164,7 @@ void SceneBuilder::add_strays(std::vector<std::shared_ptr<const LightInstance>>&
 /// that nothing lights have a light at the eye, so that there is something to see, and all are shaded once a
 /// pixel at least: path tracers do not look at ShadingRate. Their rays meet what moves at times of their own.
 void SceneBuilder::light_world() {
+    std::ranges::move(std::exchange(light_surfaces_, {}), std::back_inserter(scene_.primitives));
     auto lights = state_.scope().ris.lights;
     add_strays(lights);
     const std::shared_ptr<const LightInstance> at_eye = headlight();

@@ -1,0 +1,42 @@
+/// The area of lights of simple shapes, which normalized ones are as dark by as they are large.
+#pragma once
+
+#include <cmath>
+
+#include "core/portable_math.h"
+#include "core/scene/light_shape.h"
+#include "shade/lights/sphere_space.h"
+
+namespace trapeze {
+
+/// Camera space, of a light at shutter open whose space the matrix takes there. Of an ellipsoid about that:
+/// four circles of the mean square of its radii. 0 of lights of other kinds, which have none or are meshes.
+inline double area_of(LightShape::Kind kind, const M44f& camera_from_light) {
+    constexpr double kRadius = 0.5;
+    const auto axis = [&](int k) {
+        return wide(V3f(camera_from_light[k][0], camera_from_light[k][1], camera_from_light[k][2]));
+    };
+    const V3d x = axis(0), y = axis(1), z = axis(2);
+    switch (kind) {
+        case LightShape::Kind::Rect:
+            return x.cross(y).length();
+        case LightShape::Kind::Disk:
+            return kPi64 * kRadius * kRadius * x.cross(y).length();
+        case LightShape::Kind::Sphere:
+            return 4 * kPi64 * kRadius * kRadius * (x.length2() + y.length2() + z.length2()) / 3;
+        case LightShape::Kind::Cylinder: {
+            // Round about x, along which it is open. Periodic and smooth: even steps give all digits.
+            constexpr int kSteps = 256;
+            double sum = 0;
+            for (int i = 0; i < kSteps; ++i) {
+                const double angle = 2 * kPi64 * i / kSteps;
+                sum += x.cross(z * portable::cos(angle) - y * portable::sin(angle)).length();
+            }
+            return 2 * kPi64 * kRadius / kSteps * sum;
+        }
+        default:
+            return 0;
+    }
+}
+
+}  // namespace trapeze
