@@ -4,6 +4,8 @@ set(TRAPEZE_SOURCES_AT_ONCE 24)
 # trapeze_compile_together(TARGET SOURCE ...)
 # Sources are one to the compiler, which then reads headers once for all of them: most of what it does. So names of
 # their own have to differ. Kernels stay alone, since each of their files is compiled again for every instruction set.
+# Precompiled headers beside this were tried, and left: 7 % less processor time (six sources, two at a time, in turns),
+# while g++ 12 compiles no kernel after precompiled intrinsics (half.h includes them), and warns of the library's own.
 function(trapeze_compile_together target)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ${TRAPEZE_COMPILE_TOGETHER}
                                                UNITY_BUILD_BATCH_SIZE ${TRAPEZE_SOURCES_AT_ONCE})
