@@ -278,5 +278,19 @@ TEST(Builtins, PrintfSpeaksOnceForWhatIsUniformAndElseForEachVertex) {
     EXPECT_EQ(each.scene().reported[0].text, "0.67 0.666667 1.000000 4.000000");
 }
 
+/// Where nobody sends rays all is open, and what else a call tells is told too.
+TEST(Builtins, OcclusionWithoutRaysSetsAllThatItTells) {
+    const std::string asked =
+        "color seen = 5; vector open = 5; float part = 5, way = 5; float hidden = occlusion(P, vector "
+        "(0, 0, 2), 4, \"environmentcolor\", seen, \"environmentdir\", open, \"occlusion\", part, "
+        "\"hitdist\", way); ";
+    expect_values(
+        asked + "r = hidden + comp(seen, 1) + part;", [](float, float) { return 0; }, 0);
+    expect_values(
+        asked + "r = zcomp(open) + length(open);", [](float, float) { return 2; }, 0);
+    expect_values(
+        asked + "r = way;", [](float, float) { return 1e30f; }, 0);
+}
+
 }  // namespace
 }  // namespace trapeze::vm

@@ -11,6 +11,14 @@ namespace {
 
 using rsl::Op;
 
+/// Directions of unit length: what is open about N is so about N alone.
+void fill_with_unit(const Run& run, const Operand& out, const Operand& N) {
+    for (size_t lane = 0; lane < plane_size(run, out); ++lane) {
+        const V3f unit = Run::triple_at(N, lane).normalized();
+        for (size_t k = 0; k < 3; ++k) out.data[k * out.stride + lane] = unit[static_cast<int>(k)];
+    }
+}
+
 /// What all rays find where there is nothing: black, no distance, nothing in the way. As a float, trace() is
 /// the distance to what is hit, and 1e30 says that nothing is; transmission() and visibility() are how much
 /// gets through, and so 1.
@@ -21,9 +29,15 @@ void miss(Run& run, const Step& step, std::span<const Operand> operands) {
     const float value = step.op == Op::Trace && width == 1 ? 1e30f : open ? 1.0f : 0.0f;
     const std::array<float, 3> values{value, value, value};
     fill_operand(run, operands[0], std::span(values).first(static_cast<size_t>(width)));
-    for (size_t k = 1; step.op == Op::Trace && k < step.outputs; ++k) {  // behind P and R come their names
-        const bool is_way = run.registers().text_input(step, k + 1) == "hitdist";
-        const float told = is_way ? 1e30f : 1.0f;
+    // Their names come behind P and R, or P, N and the number of rays.
+    const bool is_of_sky = step.op == Op::Occlusion || step.op == Op::IndirectDiffuse;
+    for (size_t k = 1; (is_of_sky || step.op == Op::Trace) && k < step.outputs; ++k) {
+        const std::string& name = run.registers().text_input(step, k + (is_of_sky ? 2 : 1));
+        if (name == "environmentdir") {
+            fill_with_unit(run, operands[k], operands[step.outputs + 1u]);
+            continue;
+        }
+        const float told = name == "hitdist" ? 1e30f : is_of_sky ? 0.0f : 1.0f;
         fill_operand(run, operands[k], std::array{told, told, told});
     }
 }
