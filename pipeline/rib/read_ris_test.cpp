@@ -340,6 +340,16 @@ TEST(ReadRis, ThereIsAnEndOfLights) {
     EXPECT_THAT(r.messages[0], HasSubstr("more than 64 lights"));
 }
 
+TEST(ReadRis, LightsBeyondThatEndAreNotSeenEither) {
+    std::string text;
+    for (int i = 0; i < 66; ++i) text += "Light \"PxrSphereLight\" \"l" + std::to_string(i) + "\"\n";
+    const ReadOutcome r = read_world(text + "Bxdf \"PxrDiffuse\" \"b\"\n" + kBall);
+    EXPECT_EQ(r.attributes(0).lights.size(), 64u);
+    ASSERT_EQ(r.count(), 1u + 64u);
+    EXPECT_EQ(r.attributes(0).surface->name, "rissurface");
+    EXPECT_EQ(r.attributes(64).surface->name, "rislightsurface");
+}
+
 /// Lights shine, which nothing has to be said about.
 TEST(ReadRis, LightsAloneAreNoCauseForWarnings) {
     EXPECT_THAT(read_ris_world("Light \"PxrRectLight\" \"l\" \"float intensity\" [2]\n" + kBall).messages,

@@ -3,6 +3,7 @@
 // part of the square around it.
 #include <algorithm>
 
+#include "shade/lights/light_area.h"
 #include "shade/lights/light_sampler.h"
 #include "shade/lights/sphere_space.h"
 
@@ -69,13 +70,13 @@ class FlatLight final : public LightSampler {
         };
         x_ = row(0), y_ = row(1), middle_ = row(3);
         const V3d normal = x_.cross(y_);
-        area_ = normal.length();
+        area_ = area_of(shape.kind, camera_from_light);
         normal_ = normal.normalized() * (normal.dot(row(2)) < 0 ? -1.0 : 1.0);
         is_square_ = std::abs(x_.dot(y_)) <= 1e-5 * x_.length() * y_.length();
     }
 
     bool is_there() const { return is_finite(x_ + y_ + middle_) && area_ > 0 && std::isfinite(area_); }
-    float area() const override { return static_cast<float>(shape_area()); }
+    float area() const override { return static_cast<float>(area_); }
 
     LightSample sample(const V3f& P, const V3f&, const V2f& square) const override {
         const V3d from = wide(P), away = middle_ - from;
@@ -94,8 +95,6 @@ class FlatLight final : public LightSampler {
     }
 
   private:
-    double shape_area() const { return area_ * (is_disk_ ? kPi64 / 4 : 1); }
-
     LightSample at(const V3d& P, double height) const {
         LightSample sample;
         sample.P = narrow(P);
@@ -123,14 +122,13 @@ class FlatLight final : public LightSampler {
         const V3d P = middle_ + x_ * x + y_ * y, way = from - P;
         LightSample made = at(P, height);
         const double distance2 = way.length2();
-        made.solid_angle =
-            static_cast<float>(shape_area() * std::abs(height) / (distance2 * std::sqrt(distance2)));
+        made.solid_angle = static_cast<float>(area_ * std::abs(height) / (distance2 * std::sqrt(distance2)));
         return made;
     }
 
     bool is_disk_, two_sided_, is_square_ = false;
     V3d x_, y_, middle_, normal_;
-    double area_ = 0;  ///< of the parallelogram of x and y
+    double area_ = 0;
 };
 
 }  // namespace

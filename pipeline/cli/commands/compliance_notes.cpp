@@ -37,9 +37,8 @@ constexpr RequestNote kRequests[] = {
      "on rays of shaders that go in or are in there, as far as the next surface, or to the ray's end; not on what the "
      "camera sees through it"},
     {"Light",
-     "rislight, an area light of the shading language, stands for it; domes and distant lights are not seen; lightColorMap "
-     "is for domes alone; at most 64 "
-     "lights of a world shine, further ones are dark, with a warning"},
+     "rislight, an area light of the shading language, stands for it; domes and distant lights are not seen; "
+     "lightColorMap is for domes alone; at most 64 lights of a world shine, further ones are dark, with a warning"},
     {"LightFilter", "read, and ignored: no light is filtered"},
     {"MakeBump", "as MakeTexture"},
     {"MotionBegin",

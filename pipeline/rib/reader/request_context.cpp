@@ -172,8 +172,8 @@ void LightContext::add_light(std::shared_ptr<const LightInstance> light) {
     scene_.add_light(std::move(light));
 }
 
-void LightContext::add_world_light(std::shared_ptr<const LightInstance> light) {
-    scene_.add_world_light(std::move(light));
+bool LightContext::add_world_light(std::shared_ptr<const LightInstance> light) {
+    return scene_.add_world_light(std::move(light));
 }
 
 void LightContext::add_light_surface(const LightInstance& light) {

@@ -80,7 +80,7 @@ class LightContext : public StateContext {
 
     /// See SceneBuilder.
     void add_light(std::shared_ptr<const LightInstance> light);
-    void add_world_light(std::shared_ptr<const LightInstance> light);
+    bool add_world_light(std::shared_ptr<const LightInstance> light);
     void add_light_surface(const LightInstance& light);
     std::shared_ptr<const LightInstance> light(const std::string& handle) const;
 

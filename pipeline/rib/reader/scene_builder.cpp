@@ -210,10 +210,7 @@ void SceneBuilder::emit(const std::string& request, std::vector<ShapePointer> sh
     uint64_t bytes = bytes_of(primitive);
     if (primitive.attributes != last) bytes += bytes_of(*primitive.attributes);
     if (!has_room(bytes)) return;
-    if (request != kLightSurface) return scene_.primitives.push_back(std::move(primitive));
-    // Others keep their numbers, and with them what is random of them, wherever a light is added.
-    primitive.instance = -1;
-    light_surfaces_.push_back(std::move(primitive));
+    scene_.primitives.push_back(std::move(primitive));
 }
 
 /// False is no error: the caller leaves the primitive out, and one message stands for all of them later

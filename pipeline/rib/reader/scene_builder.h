@@ -71,8 +71,9 @@ class SceneBuilder {
     // --- lights ---
     /// Adds a light that shines on the primitives to come.
     void add_light(std::shared_ptr<const LightInstance> light);
-    /// Adds a light that shines on all of the world, or on where its object is placed (RIS).
-    void add_world_light(std::shared_ptr<const LightInstance> light);
+    /// Adds a light that shines on all of the world, or on where its object is placed (RIS). False, and said,
+    /// where there are too many.
+    bool add_world_light(std::shared_ptr<const LightInstance> light);
     /// What the camera sees of a light that was added to the world, if Attribute "visibility" lets it.
     void add_light_surface(const LightInstance& light);
     /// Geometry too far away to be seen, for the light that waits for its shape, if one does. `angle`: that
@@ -96,8 +97,6 @@ class SceneBuilder {
     void add_strays(std::vector<std::shared_ptr<const LightInstance>>& lights);
     void light_world();
 
-    /// The request that surfaces of lights are counted as.
-    static constexpr const char* kLightSurface = "Light";
     /// Else primitives are checked and counted, and their memory is given back at once.
     bool keeps_geometry() const { return read_options_.keep_geometry && frame_is_wanted_; }
     /// Estimates, since sharing and allocation are not seen exactly: a guard against files made to exhaust
@@ -125,7 +124,6 @@ class SceneBuilder {
 
     bool frame_is_wanted_ = true;
     Scene scene_;                             ///< of the open world
-    std::vector<Primitive> light_surfaces_;   ///< of this world: its last primitives, and of no instance
     SolidList solids_;                        ///< the scene's
     std::shared_ptr<RetainedObject> object_;  ///< being defined; null: none
     uint64_t instanced_primitives_ = 0;       ///< of this world

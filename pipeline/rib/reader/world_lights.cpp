@@ -1,7 +1,6 @@
 /// Lights that shine from shapes, and the path tracer's (RIS), which shine on all of a world, wherever they
 /// stand in it.
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <utility>
 
@@ -47,6 +46,17 @@ bool sees_motion(const Attributes& attributes) {
     return trace == attributes.user.end() || !trace->second.find("samplemotion");
 }
 
+/// Others keep their numbers, and with them what is random of them, wherever a light is added.
+void put_light_surfaces_last(std::vector<Primitive>& primitives) {
+    const auto is_of_scene = [](const Primitive& primitive) {
+        const auto& surface = primitive.attributes->surface;
+        return !surface || surface->name != kLightSurfaceShader;
+    };
+    const auto first = std::stable_partition(primitives.begin(), primitives.end(), is_of_scene);
+    // Away from the rest of an object's instance, they are no part of it.
+    std::for_each(first, primitives.end(), [](Primitive& primitive) { primitive.instance = -1; });
+}
+
 }  // namespace
 
 /// A light's handle lives until the frame or world ends, its shining until the block does.
@@ -64,19 +74,20 @@ std::shared_ptr<const LightInstance> SceneBuilder::light(const std::string& hand
 }
 
 /// Lights of an object have no handle outside of it, and are counted where they are placed.
-void SceneBuilder::add_world_light(std::shared_ptr<const LightInstance> light) {
+bool SceneBuilder::add_world_light(std::shared_ptr<const LightInstance> light) {
     auto& lights = object_ ? object_->lights : state_.scope().ris.lights;
     if (lights.size() >= kMostWorldLights) {
         report_.warn_once(
             "more than " + std::to_string(kMostWorldLights) + " lights; this and further ones are dark",
             "ris-lights");
-        return;
+        return false;
     }
     if (!object_) {
         ++report_.summary().lights;
         state_.scope().lights[light->handle] = light;
     }
     lights.push_back(std::move(light));
+    return true;
 }
 
 /// Shapes of lights are primitives like others, of one side, but that no ray of a shader meets them: it finds
@@ -97,7 +108,7 @@ void SceneBuilder::add_light_surface(const LightInstance& light) {
     a.surface = std::make_shared<const ShaderInstance>(std::move(surface->shader));
     a.displacement = a.interior = a.exterior = nullptr;
     a.rays.diffuse = a.rays.specular = a.rays.transmission = false;
-    add_shape(kLightSurface, std::move(surface->shape), 1);
+    add_shape("Light", std::move(surface->shape), 1);
     state_.close();
 }
 
@@ -164,7 +175,7 @@ void SceneBuilder::add_strays(std::vector<std::shared_ptr<const LightInstance>>&
 /// that nothing lights have a light at the eye, so that there is something to see, and all are shaded once a
 /// pixel at least: path tracers do not look at ShadingRate. Their rays meet what moves at times of their own.
 void SceneBuilder::light_world() {
-    std::ranges::move(std::exchange(light_surfaces_, {}), std::back_inserter(scene_.primitives));
+    put_light_surfaces_last(scene_.primitives);
     auto lights = state_.scope().ris.lights;
     add_strays(lights);
     const std::shared_ptr<const LightInstance> at_eye = headlight();

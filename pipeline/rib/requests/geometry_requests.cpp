@@ -2,6 +2,7 @@
 #include "pipeline/rib/requests/primitive_variables.h"
 #include "pipeline/rib/requests/request_table.h"
 #include "pipeline/rib/requests/teapot.h"
+#include "pipeline/rib/ris/ris_light_surfaces.h"
 #include "pipeline/rib/ris/ris_lights.h"
 #include "pipeline/rib/state/bases.h"
 
@@ -56,14 +57,11 @@ void cube(GeometryContext& r, const ParameterList& given) {
     add(r, "PointsPolygons", std::move(mesh), std::move(list));
 }
 
-/// The path tracer's rectangular light: a square of width 1.
+/// The path tracer's rectangular light.
 void rectangle(GeometryContext& r, const ParameterList& given) {
     const PatchMesh mesh;
     ParameterList list = checked_variables(r.report, given, mesh);
-    list.set({"P",
-              {StorageClass::Vertex, ValueType::Point, 1},
-              {-.5f, -.5f, 0, .5f, -.5f, 0, -.5f, .5f, 0, .5f, .5f, 0},
-              {}});
+    list.set(points_of_square());
     add(r, "Patch", mesh, std::move(list));
 }
 

@@ -133,8 +133,7 @@ void add_ris_light(LightContext& r, const std::string& handle, const ShaderInsta
             "ris-light " + shader.name);
     warn_of_what_is_ignored(r.report, shader.name, parameters, *light);
     light->moving_space = r.state.moving_current();
-    r.add_world_light(light);
-    r.add_light_surface(*light);
+    if (r.add_world_light(light)) r.add_light_surface(*light);
 }
 
 /// An attribute that is there and wrong is said, and the next name is tried.

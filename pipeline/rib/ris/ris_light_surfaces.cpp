@@ -16,21 +16,10 @@ Shape quadric(Quadric::Kind kind, const std::array<float, 7>& values, int value_
     return {q, {}};
 }
 
-/// Its normals point along +z.
-Shape square() {
-    Shape shape{PatchMesh(), {}};
-    shape.variables.set(
-        {"P",
-         {StorageClass::Vertex, ValueType::Point, 1},
-         {-kRadius, -kRadius, 0, kRadius, -kRadius, 0, -kRadius, kRadius, 0, kRadius, kRadius, 0},
-         {}});
-    return shape;
-}
-
 std::optional<Shape> shape_of(LightShape::Kind kind) {
     switch (kind) {
         case LightShape::Kind::Rect:
-            return square();
+            return Shape{PatchMesh(), {{points_of_square()}}};
         case LightShape::Kind::Disk:
             return quadric(Quadric::Kind::Disk, {0, kRadius, 360}, 3);
         case LightShape::Kind::Sphere:
@@ -44,6 +33,13 @@ std::optional<Shape> shape_of(LightShape::Kind kind) {
 
 }  // namespace
 
+Parameter points_of_square() {
+    return {"P",
+            {StorageClass::Vertex, ValueType::Point, 1},
+            {-kRadius, -kRadius, 0, kRadius, -kRadius, 0, -kRadius, kRadius, 0, kRadius, kRadius, 0},
+            {}};
+}
+
 std::optional<LightSurface> surface_of(const LightInstance& light) {
     std::optional<Shape> shape = light.shape ? shape_of(light.shape->kind) : std::nullopt;
     if (!shape) return {};
@@ -51,13 +47,11 @@ std::optional<LightSurface> surface_of(const LightInstance& light) {
     if (light.shape->kind == LightShape::Kind::Cylinder)
         made.light_from_shape = M44f(0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0, 1);
     const ParameterList& given = light.shader.parameters;
-    V3f radiance(1, 1, 1);
-    if (const Parameter* color = given.find("lightcolor"); color && color->floats.size() == 3)
-        radiance = V3f(color->floats[0], color->floats[1], color->floats[2]);
+    V3f radiance = triple_or(light.shader, "lightcolor", V3f(1, 1, 1));
     if (given.float_or("normalized", 0) != 0)
         radiance /=
             std::max(static_cast<float>(area_of(light.shape->kind, light.shader.camera_from_shader)), 1e-6f);
-    made.shader.name = "rislightsurface";
+    made.shader.name = kLightSurfaceShader;
     made.shader.location = light.shader.location;
     made.shader.camera_from_shader = light.shader.camera_from_shader;
     set_triple(made.shader, "radiance", ValueType::Color, radiance);

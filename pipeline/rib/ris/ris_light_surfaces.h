@@ -8,6 +8,13 @@
 
 namespace trapeze::rib {
 
+/// The surface shader of such shapes.
+inline constexpr const char* kLightSurfaceShader = "rislightsurface";
+
+/// "P" of a bilinear patch that is the path tracer's rectangular light: a square of width 1 about the origin,
+/// whose normal is +z.
+Parameter points_of_square();
+
 /// A shape that is to be placed, and how.
 struct LightSurface {
     Shape shape;

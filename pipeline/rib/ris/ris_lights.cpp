@@ -180,10 +180,7 @@ std::shared_ptr<LightInstance> far_light(const LightInstance& light, FarShape sh
                                          float angle) {
     ShaderInstance from = light.shader;
     from.camera_from_shader = camera_from_shape;
-    const Parameter* color = from.parameters.find("lightcolor");
-    const V3f radiance = color && color->floats.size() == 3
-                             ? V3f(color->floats[0], color->floats[1], color->floats[2])
-                             : V3f(1, 1, 1);
+    const V3f radiance = triple_or(from, "lightcolor", V3f(1, 1, 1));
     const int samples = light.shape->samples;
     const bool is_dome = shape == FarShape::Dome;
     const float share = !is_dome && angle > 0 && !is_brightness(radiance) ? share_of_disk(angle) : 1;

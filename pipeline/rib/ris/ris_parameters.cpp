@@ -83,6 +83,12 @@ void set_triple(ShaderInstance& shader, const char* name, ValueType type, const 
     shader.parameters.set({name, {StorageClass::Uniform, type, 1}, {value.x, value.y, value.z}, {}});
 }
 
+V3f triple_or(const ShaderInstance& shader, const char* name, const V3f& fallback) {
+    const Parameter* given = shader.parameters.find(name);
+    return given && given->floats.size() == 3 ? V3f(given->floats[0], given->floats[1], given->floats[2])
+                                              : fallback;
+}
+
 void set_text(ShaderInstance& shader, const char* name, std::string value) {
     shader.parameters.set({name, {StorageClass::Uniform, ValueType::String, 1}, {}, {std::move(value)}});
 }

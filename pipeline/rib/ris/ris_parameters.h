@@ -42,9 +42,10 @@ class RisParameters {
     std::vector<RisParameter> values_;
 };
 
-/// A uniform parameter of a shader that stands in for one of RIS.
+/// Uniform parameters of a shader that stands in for one of RIS.
 void set_number(ShaderInstance& shader, const char* name, float value);
 void set_triple(ShaderInstance& shader, const char* name, ValueType type, const V3f& value);
+V3f triple_or(const ShaderInstance& shader, const char* name, const V3f& fallback);
 void set_text(ShaderInstance& shader, const char* name, std::string value);
 
 }  // namespace trapeze::rib
