@@ -64,6 +64,22 @@ TEST(Illuminance, ChoosesLightsByCategory) {
     }
 }
 
+TEST(Illuminance, ReachesAmbientLightsByTheirName) {
+    LitProbe probe;
+    probe.folder().write("gloom", "light gloom(string __category = \"far\") { Cl = 100; }");
+    probe.scene().light("gloom");
+    probe.light(1, "a");
+    probe.expect("illuminance(P) Ci += Cl;", 1);
+    probe.expect("illuminance(\"-b\", P) Ci += Cl;", 1);
+    probe.expect("illuminance(\"far\", P) Ci += Cl;", 0);
+    probe.expect("illuminance(\"ambient\", P, N, 0.1) if (L == vector 0) Ci += Cl;", 100);
+    probe.expect(
+        "illuminance(\"ambient,diffuse\", P) { Ci += Cl + 1000 * islightcategory(\"far\"); "
+        "if (L == vector 0) Ci += 10000; }",
+        11101);
+    probe.expect("illuminance(\"ambient&-far,diffuse&-b\", P) Ci += Cl;", 1);
+}
+
 TEST(Illuminance, ChoosesLightsByCone) {
     const auto within = [](const std::string& cone, float sum) {
         LitProbe probe;

@@ -9,6 +9,7 @@
 
 #include "core/scene/scene.h"
 #include "core/scene/shading_grid.h"
+#include "shade/lights/light_categories.h"
 #include "shade/materials/copy_operand.h"
 #include "shade/vm/kernels/light_kernels.h"
 
@@ -226,12 +227,15 @@ void LightRig::tell(const Turn& turn, const vm::LightOutput& output, const vm::R
     const vm::Operand arrives = planes_of(planes + kCl * lanes_, lanes_);
     if (!Cl) std::fill_n(arrives.data, 3 * lanes_, 0.0f);
     const vm::Operand sent = Cl ? registers.operand(*Cl) : arrives;
-    if (arriving.ambient)
+    if (arriving.ambient) {
         copy_operand(sent, 3, lanes_, arrives);
-    else
+        std::fill_n(output.L, 3 * lanes_, 0.0f);
+        std::memset(planes + kLit * lanes_, 0xff, lanes_ * sizeof(float));
+    } else {
         vm::receive_light(lanes_, planes_of(planes + kLit * lanes_, lanes_), sent,
                           planes_of(planes + kL * lanes_, lanes_),
                           planes_of(planes + kDirection * lanes_, lanes_), arrives);
+    }
     const float share = 1 / static_cast<float>(turn.samples);
     if (turn.samples > 1)
         for (size_t i = 0; i < 3 * lanes_; ++i) arrives.data[i] *= share;
@@ -239,29 +243,16 @@ void LightRig::tell(const Turn& turn, const vm::LightOutput& output, const vm::R
 
 bool LightRig::in_category(const Arriving& light, std::string_view wanted) {
     if (wanted.empty()) return true;
-    const vm::Registers* own = light.registers;
-    std::string_view categories;
-    if (own)
+    LightCategories categories{{}, light.ambient, light.diffuse > 0, light.specular > 0};
+    if (const vm::Registers* const own = light.registers)
         for (const rsl::ProgramParameter& parameter : own->program().parameters)
             if (parameter.name == "__category" && parameter.type.base == rsl::Base::String)
-                categories = own->text(parameter.id);
-    const bool excluded = wanted.front() == '-';
-    if (excluded) wanted.remove_prefix(1);
-    const auto has = [&](std::string_view name) {
-        for (size_t at = 0; at <= categories.size();) {
-            const size_t comma = std::min(categories.find(',', at), categories.size());
-            if (categories.substr(at, comma - at) == name) return true;
-            at = comma + 1;
-        }
-        return false;
-    };
-    bool any = false;
-    for (size_t at = 0; at <= wanted.size();) {
-        const size_t comma = std::min(wanted.find(',', at), wanted.size());
-        any = any || has(wanted.substr(at, comma - at));
-        at = comma + 1;
-    }
-    return any != excluded;
+                categories.named = own->text(parameter.id);
+    return categories.fit(wanted);
+}
+
+bool LightRig::in_loop(const Arriving& light, std::string_view wanted) {
+    return (!light.ambient || names_ambient(wanted)) && in_category(light, wanted);
 }
 
 }  // namespace trapeze

@@ -27,6 +27,7 @@ class LightRig : public vm::Lights {
     size_t count() const override { return turns_.size(); }
     Task<const Arriving*> arriving(size_t light, const vm::LightRequest& request) override;
     bool in_category(const Arriving& light, std::string_view wanted) override;
+    bool in_loop(const Arriving& light, std::string_view wanted) override;
 
     const Lamp& lamp(size_t light) const { return *(*lamps_)[turns_[light].lamp]; }
 

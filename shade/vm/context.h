@@ -117,7 +117,7 @@ class Lights {
     /// call of that depth. Their lanes are those of the run that asked.
     struct Arriving {
         bool ambient = false;
-        const float* L = nullptr;              ///< to the light; 3 planes
+        const float* L = nullptr;              ///< to the light; 3 planes; 0 of ambient ones
         const float* direction = nullptr;      ///< L, of unit length
         const float* Cl = nullptr;             ///< 3 planes; zero where the light does not reach
         const float* lit = nullptr;            ///< lanes that the light's cone holds
@@ -127,9 +127,14 @@ class Lights {
     };
     /// The request must live until the task is done.
     virtual Task<const Arriving*> arriving(size_t light, const LightRequest& request) = 0;
-    /// Whether its category (output parameter __category) is among those wanted: "a,b", or "-a" for all
-    /// others.
+    /// Whether its categories (output parameter __category) are among those wanted: "a,b", or "-a" for all
+    /// others, or "a&-b".
     virtual bool in_category(const Arriving& light, std::string_view wanted) = 0;
+    /// Whether illuminance over these categories takes it. Ambient ones have a turn only where they are asked
+    /// for.
+    virtual bool in_loop(const Arriving& light, std::string_view wanted) {
+        return !light.ambient && in_category(light, wanted);
+    }
 };
 
 /// What raylabel() and rayinfo() tell of the ray that has hit the points which are shaded.

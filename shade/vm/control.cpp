@@ -251,11 +251,11 @@ Task<size_t> Run::next_light(const std::vector<Step>& steps, size_t opening) {
         const size_t number = loop.next++;
         // The light's own shader runs here, if what it sends to P is not known yet.
         const Lights::Arriving& light = *co_await lights.arriving(number, request);
-        if (light.ambient || !lights.in_category(light, registers_.text_input(step, 0))) continue;
+        if (!lights.in_loop(light, registers_.text_input(step, 0))) continue;
         // Lanes that the light does not reach, or outside the cone asked for, sit this turn out.
         const float* reached = light.lit;
         scratch_used_ = 0;
-        if (with_cone) {
+        if (with_cone && !light.ambient) {
             const Operand &axis = registers_.input(step, 2), &angle = registers_.input(step, 3);
             float* cone = scratch(1);
             const Operand inside = varying(cone, lanes());
