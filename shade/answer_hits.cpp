@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "shade/materials/attribute_values.h"
+#include "shade/materials/named_values.h"
 
 namespace trapeze {
 namespace {
@@ -33,7 +33,8 @@ bool take_variable(const ShadingGrid& grid, const Aov& aov, size_t vertex, Answe
 }
 
 bool take_attribute(const ShadingGrid& grid, const HitOutput& output, Answer answer) {
-    const std::optional<NamedValue> value = find_attribute_value(*grid.primitive->attributes, output.name);
+    const std::optional<NamedValue> value =
+        find_attribute_value(*grid.primitive->attributes, grid.primitive, output.name);
     if (!value || value->numbers.size() < static_cast<size_t>(output.width)) return false;
     std::copy_n(value->numbers.begin(), output.width, answer.begin() + 1);
     return true;

@@ -1,9 +1,10 @@
 #include "shade/grid_messages.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
-#include "shade/materials/attribute_values.h"
+#include "shade/materials/named_values.h"
 
 namespace trapeze {
 namespace {
@@ -16,10 +17,10 @@ size_t plane_of(const vm::Operand& out, size_t lanes) {
     return out.lane_mask ? lanes : kLanes;
 }
 
-/// Copies a variable of another shader, a parameter or a predefined one, to `out` or `text`. False when there
-/// is none of the type.
+/// Copies a variable of another shader, a parameter or a predefined one, to `out` or `texts`. False when
+/// there is none of the type.
 bool copy_variable(const vm::Registers* registers, std::string_view name, rsl::Type type,
-                   const vm::Operand& out, std::string* text) {
+                   const vm::Operand& out, std::span<std::string> texts) {
     if (!registers) return false;
     const rsl::Program& program = registers->program();
     const rsl::RegisterId* id = program.find_global(name);
@@ -30,8 +31,8 @@ bool copy_variable(const vm::Registers* registers, std::string_view name, rsl::T
     if (own.is_unsized() || own.length != type.length || rsl::width_of(own.base) != rsl::width_of(type.base))
         return false;
     if (type.base == Base::String) {
-        if (!text || own.base != Base::String) return false;
-        *text = registers->text(*id);
+        if (own.base != Base::String) return false;
+        for (size_t e = 0; e < texts.size(); ++e) texts[e] = registers->text(*id, e);
         return true;
     }
     const vm::Operand& from = registers->operand(*id);
@@ -61,77 +62,44 @@ bool set_value(std::span<const float> values, rsl::Type type, const vm::Operand&
     return true;
 }
 
-bool set_parameter(const Parameter* parameter, rsl::Type type, const vm::Operand& out, std::string* text) {
-    if (!parameter) return false;
-    if (type.base == Base::String) {
-        if (!text || parameter->strings.empty()) return false;
-        *text = parameter->strings.front();
-        return true;
-    }
-    return set_value(parameter->floats, type, out);
+/// Likewise of texts.
+bool set_texts(std::span<const std::string> values, rsl::Type type, std::span<std::string> texts) {
+    if (type.base != Base::String || values.size() < texts.size()) return false;
+    std::copy_n(values.begin(), texts.size(), texts.begin());
+    return true;
 }
 
-bool set_text(std::string value, rsl::Type type, std::string* text) {
-    if (type.base != Base::String || !text) return false;
-    *text = std::move(value);
-    return true;
+bool set_named(const std::optional<NamedValue>& value, rsl::Type type, const vm::Operand& out,
+               std::span<std::string> texts) {
+    if (!value) return false;
+    return type.base == Base::String ? set_texts(value->texts, type, texts)
+                                     : set_value(value->numbers, type, out);
 }
 
 }  // namespace
 
-bool GridMessages::find_attribute(std::string_view name, rsl::Type type, const vm::Operand& out,
-                                  std::string* text) const {
-    if (!attributes) return false;
-    const std::optional<NamedValue> value = find_attribute_value(*attributes, name);
-    if (!value) return false;
-    if (value->text) return set_text(*value->text, type, text);
-    return type.base != Base::String && set_value(value->numbers, type, out);
-}
-
-bool GridMessages::find_option(std::string_view name, rsl::Type type, const vm::Operand& out,
-                               std::string* text) const {
-    const Options& o = context_.scene->options;
-    const Camera& camera = context_.camera;
-    if (name == "Format")
-        return set_value(
-            std::array{static_cast<float>(camera.width), static_cast<float>(camera.height), o.pixel_aspect},
-            type, out);
-    if (name == "CropWindow") return set_value(o.crop_window, type, out);
-    if (name == "FrameAspectRatio") {
-        const float picture = o.pixel_aspect * static_cast<float>(camera.width) /
-                              static_cast<float>(std::max(camera.height, 1));
-        return set_value(std::array{o.frame_aspect.value_or(picture)}, type, out);
-    }
-    if (name == "DepthOfField")
-        return set_value(std::array{o.f_stop, o.focal_length, o.focal_distance}, type, out);
-    if (name == "Shutter") return set_value(std::array{o.shutter_open, o.shutter_close}, type, out);
-    if (name == "Clipping") return set_value(std::array{o.near_clip, o.far_clip}, type, out);
-    if (name == "Frame") return set_value(std::array{static_cast<float>(o.frame)}, type, out);
-    if (name == "trace:maxdepth")
-        return set_value(std::array{static_cast<float>(o.max_ray_depth)}, type, out);
-    return set_parameter(find_user_value(o.user, name), type, out, text);
-}
-
 bool GridMessages::find(Op what, std::string_view name, rsl::Type type, const vm::Operand& out,
-                        std::string* text, const vm::Registers* light) {
+                        std::span<std::string> texts, const vm::Registers* light) {
     switch (what) {
         case Op::LightMessage:
-            return copy_variable(light, name, type, out, text);
+            return copy_variable(light, name, type, out, texts);
         case Op::SurfaceMessage:
-            return copy_variable(surface, name, type, out, text);
+            return copy_variable(surface, name, type, out, texts);
         case Op::DisplacementMessage:
-            return copy_variable(displacement, name, type, out, text);
+            return copy_variable(displacement, name, type, out, texts);
         case Op::AtmosphereMessage:
         case Op::IncidentMessage:  // the volume between the eye and the surface
-            return copy_variable(atmosphere, name, type, out, text);
+            return copy_variable(atmosphere, name, type, out, texts);
         case Op::AttributeMessage:
-            return find_attribute(name, type, out, text);
+            return attributes &&
+                   set_named(find_attribute_value(*attributes, primitive, name), type, out, texts);
         case Op::OptionMessage:
-            return find_option(name, type, out, text);
+            return set_named(find_option_value(context_.scene->options, context_.camera, name), type, out,
+                             texts);
         case Op::RendererInfo:
-            if (name == "renderer") return set_text("Trapeze", type, text);
+            if (name == "renderer") return set_texts(std::array{std::string("Trapeze")}, type, texts);
             if (name == "version") return set_value(std::array{0.0f, 1.0f, 0.0f, 0.0f}, type, out);
-            return name == "versionstring" && set_text("0.1.0", type, text);
+            return name == "versionstring" && set_texts(std::array{std::string("0.1.0")}, type, texts);
         default:
             return false;  // opposite(): no volume behind a surface is run
     }

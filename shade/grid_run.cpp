@@ -106,6 +106,7 @@ GridRun::GridRun(const RenderContext& context, Textures& textures, const Materia
       messages_(context),
       batch_(batch_of(read_)) {
     messages_.attributes = material.attributes;
+    messages_.primitive = grids.front()->primitive;
     if (rays) rays_.emplace(*rays, *material.attributes);
 }
 

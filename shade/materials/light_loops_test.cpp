@@ -218,12 +218,12 @@ TEST(Messages, IncidentIsTheAtmosphere) {
     vm::Operand out;
     out.data = plane.data();
     const rsl::Type number_type{rsl::Base::Float, 0};
-    EXPECT_FALSE(messages.find(rsl::Op::IncidentMessage, "density", number_type, out, nullptr, nullptr));
+    EXPECT_FALSE(messages.find(rsl::Op::IncidentMessage, "density", number_type, out, {}, nullptr));
     messages.atmosphere = &volume.registers();
-    EXPECT_TRUE(messages.find(rsl::Op::IncidentMessage, "density", number_type, out, nullptr, nullptr));
+    EXPECT_TRUE(messages.find(rsl::Op::IncidentMessage, "density", number_type, out, {}, nullptr));
     EXPECT_EQ(plane[0], 0.25f);
-    EXPECT_FALSE(messages.find(rsl::Op::OppositeMessage, "density", number_type, out, nullptr, nullptr));
-    EXPECT_FALSE(messages.find(rsl::Op::IncidentMessage, "nothing", number_type, out, nullptr, nullptr));
+    EXPECT_FALSE(messages.find(rsl::Op::OppositeMessage, "density", number_type, out, {}, nullptr));
+    EXPECT_FALSE(messages.find(rsl::Op::IncidentMessage, "nothing", number_type, out, {}, nullptr));
 }
 
 /// Runs a light over the grid as its own surface.

@@ -59,7 +59,7 @@ class TwoLights : public Lights {
 
 class KnownMessages : public Messages {
   public:
-    bool find(rsl::Op, std::string_view name, rsl::Type, const Operand& out, std::string*,
+    bool find(rsl::Op, std::string_view name, rsl::Type, const Operand& out, std::span<std::string>,
               const Registers*) override {
         if (name == "known") std::fill_n(out.data, kLanes, 0.25f);
         return name == "known";

@@ -164,10 +164,11 @@ class Rays {
 class Messages {
   public:
     virtual ~Messages() = default;
-    /// False when there is no such value of that type; else sets it in all lanes of the output, or the text.
+    /// False when there is no such value of that type; else sets it in all lanes of the output, or the texts:
+    /// all elements of an array, or one.
     /// `light`: the variables of the light of the illuminance block which asks; null where there is none.
     virtual bool find(rsl::Op what, std::string_view name, rsl::Type type, const Operand& out,
-                      std::string* text, const Registers* light) = 0;
+                      std::span<std::string> texts, const Registers* light) = 0;
     virtual std::string shader_name(std::string_view kind) = 0;
 };
 

@@ -6,18 +6,21 @@ namespace {
 
 using rsl::Op;
 
-/// Outputs: found (1 or 0), the value, which is kept when there is none; input: the name. A text is uniform
-/// and a register of its own; the planes of operand 1 are then not used.
+/// Outputs: found (1 or 0), the value, which is kept when there is none; input: the name. Texts are uniform
+/// and registers of their own; the planes of operand 1 are then not used.
 void ask(Run& run, const Step& step, std::span<const Operand> operands) {
     Registers& registers = run.registers();
     const rsl::RegisterId value = registers.register_of(step, 1);
     const rsl::Type type = registers.reg(value).type;
     bool found = false;
     // Arrays of no length in their type are not asked for.
-    if (run.context().messages && !type.is_unsized())
-        found = run.context().messages->find(
-            step.op, registers.text_input(step, 0), type, operands[1],
-            type.base == rsl::Base::String ? &registers.text(value) : nullptr, run.asked_light());
+    if (run.context().messages && !type.is_unsized()) {
+        std::span<std::string> texts;
+        if (type.base == rsl::Base::String)
+            texts = {&registers.text(value), static_cast<size_t>(std::max(type.length, 1))};
+        found = run.context().messages->find(step.op, registers.text_input(step, 0), type, operands[1], texts,
+                                             run.asked_light());
+    }
     fill_operand(run, operands[0], std::array{found ? 1.0f : 0.0f});
 }
 

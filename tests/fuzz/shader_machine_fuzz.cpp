@@ -92,10 +92,10 @@ class ThreeLights : public Lights {
 
 class AnyMessages : public Messages {
   public:
-    bool find(rsl::Op, std::string_view name, rsl::Type type, const Operand& out, std::string* text,
-              const Registers*) override {
+    bool find(rsl::Op, std::string_view name, rsl::Type type, const Operand& out,
+              std::span<std::string> texts, const Registers*) override {
         if (name.size() % 2) return false;
-        if (text) *text = name;
+        for (std::string& text : texts) text = name;
         const int planes = rsl::width_of(type.base) * std::max(type.length, 1);
         for (size_t i = 0; i < static_cast<size_t>(planes) * kLanes; ++i)
             out.data[i] = out.lane_mask ? number_of(name, i) : number_of(name, i / kLanes);
