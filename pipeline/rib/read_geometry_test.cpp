@@ -73,8 +73,8 @@ TEST(ReadGeometry, SubdivisionMeshesAndTheFormsOfTags) {
 }
 
 TEST(ReadGeometry, PatchesOfEveryBasisStepAndWrap) {
-    const std::pair<const char*, int> bases[] = {
-        {"bezier", 3}, {"b-spline", 1}, {"catmull-rom", 1}, {"hermite", 2}, {"power", 4}};
+    const std::pair<const char*, int> bases[] = {{"bezier", 3},      {"b-spline", 1}, {"bspline", 1},
+                                                 {"catmull-rom", 1}, {"hermite", 2},  {"power", 4}};
     for (const auto& [name, step] : bases) {
         const std::string basis = std::string("Basis \"") + name + "\" " + std::to_string(step) + " \"" +
                                   name + "\" " + std::to_string(step) + " ";

@@ -11,7 +11,7 @@ M44f bezier_basis() {
 /// power basis are the coefficients themselves, and no segment shares any.
 std::optional<CubicBasis> basis_named(std::string_view name) {
     if (name == "bezier") return CubicBasis{bezier_basis(), 3};
-    if (name == "b-spline")
+    if (name == "b-spline" || name == "bspline")
         return CubicBasis{M44f(-1, 3, -3, 1, 3, -6, 3, 0, -3, 0, 3, 0, 1, 4, 1, 0) * (1.0f / 6), 1};
     if (name == "catmull-rom")
         return CubicBasis{M44f(-1, 3, -3, 1, 2, -5, 4, -1, -1, 0, 1, 0, 0, 2, 0, 0) * 0.5f, 1};

@@ -14,8 +14,8 @@ struct CubicBasis {
     int step = 3;  ///< control points from one segment's first to the next one's
 };
 
-/// "bezier", "b-spline", "catmull-rom", "hermite" and "power", with the steps that RISpec gives them; nothing
-/// for other names.
+/// "bezier", "b-spline" (or "bspline"), "catmull-rom", "hermite" and "power", with the steps that RISpec
+/// gives them; nothing for other names.
 std::optional<CubicBasis> basis_named(std::string_view name);
 
 /// What patches and curves have unless Basis says otherwise. RISpec's default, with a step of 3: neighbouring

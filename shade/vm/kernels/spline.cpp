@@ -226,13 +226,14 @@ namespace trapeze::vm {
 HWY_EXPORT(find_spline);
 HWY_EXPORT(find_inverse);
 
-/// RISpec's names, and the spellings with and without a hyphen that shaders have.
+/// RISpec's names, and the spellings with and without a hyphen, and the short one, that shaders have.
 std::optional<SplineBasis> spline_basis(std::string_view name) {
     constexpr std::pair<std::string_view, SplineBasis> kNames[] = {
         {"catmull-rom", SplineBasis::CatmullRom}, {"catmullrom", SplineBasis::CatmullRom},
-        {"bezier", SplineBasis::Bezier},          {"bspline", SplineBasis::BSpline},
-        {"b-spline", SplineBasis::BSpline},       {"hermite", SplineBasis::Hermite},
-        {"linear", SplineBasis::Linear},          {"constant", SplineBasis::Constant},
+        {"catrom", SplineBasis::CatmullRom},      {"bezier", SplineBasis::Bezier},
+        {"bspline", SplineBasis::BSpline},        {"b-spline", SplineBasis::BSpline},
+        {"hermite", SplineBasis::Hermite},        {"linear", SplineBasis::Linear},
+        {"constant", SplineBasis::Constant},
     };
     for (const auto& [known, basis] : kNames)
         if (known == name) return basis;

@@ -125,6 +125,8 @@ TEST(Spline, OfTooFewKnotsIsZero) {
 
 TEST(Spline, KnowsItsBases) {
     EXPECT_EQ(spline_basis("catmull-rom"), SplineBasis::CatmullRom);
+    EXPECT_EQ(spline_basis("catrom"), SplineBasis::CatmullRom);
+    EXPECT_EQ(solved_spline_basis("solvecatrom"), SplineBasis::CatmullRom);
     EXPECT_EQ(spline_basis("bspline"), SplineBasis::BSpline);
     EXPECT_EQ(spline_basis("b-spline"), SplineBasis::BSpline);
     EXPECT_FALSE(spline_basis("Bezier"));
