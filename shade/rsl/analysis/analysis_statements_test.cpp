@@ -138,6 +138,18 @@ TEST(Analysis, UniformVariablesBecomeVarying) {
 TEST(Analysis, UniformVariablesPartWithControl) {
     const auto storage = [](const std::string& body) {
         Heard heard;
+    // A grid has one value of these, though the machine's grids have one each.
+    const std::string of_grid =
+        "uniform float a = gridmin(s), b = 2 * a + gridavg(t); a = max(gridmax(u), 1);";
+    EXPECT_EQ(in_surface(of_grid + "float c[2] = s; uniform float n = arraylength(c);"), "");
+    EXPECT_EQ(said("uniform float f(varying float x) { return sqrt(gridmin(x)); } float g(uniform float y) { "
+                   "return y; } surface t() { uniform float a = f(s), b = g(a) * f(t); }"),
+              "");
+    EXPECT_EQ(in_surface("uniform float a = gridmin(s), b = a; a = s;"),
+              "warning 1:104: \"a\" is uniform and gets a varying value: it becomes varying\n"
+              "warning 1:97: \"b\" is uniform and gets a varying value: it becomes varying\n");
+    EXPECT_EQ(in_surface("uniform float a = gridmin(s) * s;"),
+              "warning 1:81: \"a\" is uniform and gets a varying value: it becomes varying\n");
         const auto unit = compiled("surface t() { uniform float a = 0; " + body + " }", heard);
         EXPECT_TRUE(unit) << heard.all();
         EXPECT_EQ(heard.all(), "") << body;

@@ -1,5 +1,6 @@
 #include "shade/rsl/analysis/propagate_varying.h"
 
+#include <algorithm>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -20,6 +21,15 @@ constexpr int kMostPasses = 10;  // then all that may be varying is
 bool is_message(Op op) {
     return keeps_output(op) && asks_surroundings(op);
 }
+
+/// A value of a whole grid, which the language takes to be uniform. Several grids may be shaded together,
+/// each with its own: for the machine it varies.
+bool is_of_grid(Op op) {
+    return op == Op::GridMin || op == Op::GridMax || op == Op::GridAverage;
+}
+
+/// Whether a value differs between vertices: not, only from grid to grid, or in a grid.
+enum class Varies : uint8_t { No, ByGrid, Yes };
 
 /// Whether a call's result differs between vertices even where all arguments are uniform: sums over lights,
 /// since light is asked for at P, and texture() without coordinates, which reads at s and t.
@@ -53,7 +63,7 @@ class Propagation {
   private:
     /// What is known of a function from all that it returns and all places where it is called.
     struct Facts {
-        bool result_varying = false;
+        Varies result = Varies::No;
         bool called_apart = false;  ///< where not all vertices take part
     };
 
@@ -134,14 +144,14 @@ class Propagation {
         for (const auto& variable : s.variables) declare(*variable, apart);
         if (s.kind == Statement::Kind::Gather) gather_outputs(s, within);
         if (s.kind == Statement::Kind::Return && function_ && !s.expressions.empty())
-            note(facts_[function_].result_varying, apart > 0 || varying(*s.expressions[0]));
+            note(facts_[function_].result, apart > 0 ? Varies::Yes : varies(*s.expressions[0]));
         for (const StatementPtr& child : s.children) statement(*child, within);
     }
 
     /// What rays bring back differs from vertex to vertex: the values of "surface:Ci" and its like.
     void gather_outputs(const Statement& s, int apart) {
         for (size_t i = 6; i < s.expressions.size(); i += 2)
-            if (is_gather_output(*s.expressions[i - 1])) assign(*s.expressions[i], true, apart, false);
+            if (is_gather_output(*s.expressions[i - 1])) assign(*s.expressions[i], Varies::Yes, apart, false);
     }
 
     /// A variable is at home where it is declared: only assignments in places that are further apart make it
@@ -151,32 +161,41 @@ class Propagation {
         if (!variable.initial) return;
         if (variable.outlives && apart > 0) make_varying(variable, variable.at, false);
         expression(*variable.initial, apart);
-        if (varying(*variable.initial)) make_varying(variable, variable.at, true);
+        make_varying(variable, varies(*variable.initial), variable.at, true);
         if (all_varying_) make_varying(variable, variable.at, false);
     }
 
     // ---- Values
 
-    /// Whether an expression may have different values at different vertices, as far as is known yet.
-    bool varying(const Expression& e) const {
+    Varies varies(const Expression& e) const {
+        return !varying(e) ? Varies::No : varying(e, true) ? Varies::Yes : Varies::ByGrid;
+    }
+
+    /// Whether an expression may have different values at different vertices, as far as is known yet; with
+    /// `in_grid`, at vertices of one grid.
+    bool varying(const Expression& e, bool in_grid = false) const {
         if (e.type.base == Base::String) return false;
         switch (e.kind) {
             case Expression::Kind::Number:
             case Expression::Kind::Text:
                 return false;
             case Expression::Kind::Variable:
-                return e.variable && varying(*e.variable);
+                return e.variable && varying(*e.variable) && !(in_grid && of_grid_.contains(e.variable));
             case Expression::Kind::Call:
                 if (e.builtin && is_varying(e)) return true;
                 if (e.builtin && is_message(e.builtin->op)) return false;
+                if (e.builtin && in_grid && is_of_grid(e.builtin->op)) return false;
+                if (e.builtin && e.builtin->op == Op::ArrayLength && !e.children[0]->type.is_unsized())
+                    return false;
                 if (e.function) {
                     const auto facts = facts_.find(e.function);
-                    return all_varying_ || (facts != facts_.end() && facts->second.result_varying);
+                    const Varies result = facts == facts_.end() ? Varies::No : facts->second.result;
+                    return all_varying_ || result > (in_grid ? Varies::ByGrid : Varies::No);
                 }
                 [[fallthrough]];
             default:
                 for (const ExpressionPtr& child : e.children)
-                    if (varying(*child)) return true;
+                    if (varying(*child, in_grid)) return true;
                 return false;
         }
     }
@@ -194,7 +213,7 @@ class Propagation {
     void expression(const Expression& e, int apart) {
         for (const ExpressionPtr& child : e.children) expression(*child, apart);
         if (e.kind == Expression::Kind::Assignment)
-            assign(*e.children[0], varying(*e.children[1]), apart, true);
+            assign(*e.children[0], varies(*e.children[1]), apart, true);
         else if (e.kind == Expression::Kind::Call && e.function)
             call(e, apart);
         else if (e.kind == Expression::Kind::Call && e.builtin)
@@ -204,15 +223,15 @@ class Propagation {
     /// Arguments that a built-in function sets are varying when any that it reads is.
     void builtin_outputs(const Expression& e, int apart) {
         const Signature signature = signature_of(*e.builtin);
-        bool given_varying = false;
+        Varies given = Varies::No;
         for (size_t i = 0; i < e.children.size(); ++i)
             if (i >= signature.parameters.size() || !signature.parameters[i].output)
-                given_varying = given_varying || varying(*e.children[i]);
-        if (is_message(e.builtin->op)) given_varying = false;
+                given = std::max(given, varies(*e.children[i]));
+        if (is_message(e.builtin->op)) given = Varies::No;
         for (size_t i = 0; i < std::min(e.children.size(), signature.parameters.size()); ++i)
-            if (signature.parameters[i].output) assign(*e.children[i], given_varying, apart, true);
+            if (signature.parameters[i].output) assign(*e.children[i], given, apart, true);
         for (size_t i = signature.parameters.size() + 1; i < e.children.size(); i += 2)
-            if (is_named_output(e, i)) assign(*e.children[i], true, apart, false);
+            if (is_named_output(e, i)) assign(*e.children[i], Varies::Yes, apart, false);
     }
 
     /// Arguments make parameters varying, and parameters that are output their arguments. A call that is
@@ -223,14 +242,15 @@ class Propagation {
         for (size_t i = 0; i < e.children.size() && i < e.function->parameters.size(); ++i) {
             Variable& parameter = *e.function->parameters[i];
             const Expression& argument = *e.children[i];
-            if (varying(argument) || all_varying_)
-                make_varying(parameter, argument.at, !parameter.output && !all_varying_);
-            if (parameter.output) assign(argument, varying(parameter), apart, false);
+            make_varying(parameter, all_varying_ ? Varies::Yes : varies(argument), argument.at,
+                         !parameter.output && !all_varying_);
+            if (parameter.output)
+                assign(argument, varying(parameter) ? Varies::Yes : Varies::No, apart, false);
         }
     }
 
     /// A value, varying or not, goes to a variable or an element of one.
-    void assign(const Expression& place, bool value_varies, int apart, bool warn) {
+    void assign(const Expression& place, Varies value, int apart, bool warn) {
         const bool element = place.kind == Expression::Kind::Element;
         Variable* variable = element ? place.children[0]->variable : place.variable;
         if (!variable) return;
@@ -240,10 +260,30 @@ class Propagation {
         const bool parted = declared != depth_.end()
                                 ? apart > declared->second
                                 : apart > 0 || (function_ && facts_[function_].called_apart);
-        const bool index_varies = element && varying(*place.children[1]);
+        if (element) value = std::max(value, varies(*place.children[1]));
         if (all_varying_) warn = false;
-        if (value_varies || index_varies) return make_varying(*variable, place.at, warn);
+        if (value == Varies::Yes || (value == Varies::ByGrid && !parted))
+            return make_varying(*variable, value, place.at, warn);
         if (parted || all_varying_) make_varying(*variable, place.at, false);
+    }
+
+    /// Makes a variable varying if the value that it gets is. One of the whole grid is nothing to warn of.
+    void make_varying(Variable& variable, Varies value, SourceLocation at, bool warn) {
+        if (value == Varies::Yes) {
+            if (of_grid_.erase(&variable)) {
+                changed_ = true;
+                if (warn && variable.storage != Storage::Unspecified) report(variable, at);
+            }
+            make_varying(variable, at, warn);
+        } else if (value == Varies::ByGrid) {
+            if (!varying(variable)) of_grid_.insert(&variable);
+            make_varying(variable, at, false);
+        }
+    }
+
+    void report(const Variable& variable, SourceLocation at) {
+        reporter_.warning(
+            at, "\"" + variable.name + "\" is uniform and gets a varying value: it becomes varying");
     }
 
     /// Makes a variable varying. With `warn`, warns where the source declares it uniform.
@@ -254,16 +294,15 @@ class Propagation {
             varying_parameters_.insert(&variable);
             return;
         }
-        if (warn)
-            reporter_.warning(
-                at, "\"" + variable.name + "\" is uniform and gets a varying value: it becomes varying");
+        if (warn) report(variable, at);
         variable.storage = Storage::Varying;
     }
 
-    /// Sets a fact that, once true, stays so.
-    void note(bool& fact, bool value) {
-        if (fact || !value) return;
-        fact = true;
+    /// Raises a fact, which is never lowered again.
+    template <typename Fact>
+    void note(Fact& fact, Fact value) {
+        if (value <= fact) return;
+        fact = value;
         changed_ = true;
     }
 
@@ -274,6 +313,7 @@ class Propagation {
     std::unordered_map<const Function*, Facts> facts_;
     std::unordered_map<const Variable*, int> depth_;  // places where control had parted at the declaration
     std::unordered_set<const Variable*> varying_parameters_;
+    std::unordered_set<const Variable*> of_grid_;  // that vary from grid to grid only
     std::unordered_set<const Statement*> exits_apart_;
     bool changed_ = false, all_varying_ = false;
 };
