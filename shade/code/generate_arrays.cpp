@@ -63,8 +63,12 @@ void Generator::copy_array(RegisterId from, RegisterId to, Base base) {
 /// computed first.
 void Generator::assign_list(const Expression& list, RegisterId array) {
     if (!program_->reg(array).type.is_unsized()) {
-        for (size_t i = 0; i < list.children.size(); ++i)
-            set_element(array, constant(static_cast<float>(i)), value(*list.children[i]));
+        const auto length = static_cast<size_t>(program_->reg(array).type.length);
+        RegisterId one{};
+        for (size_t i = 0; i < (list.repeats ? length : list.children.size()); ++i) {
+            if (i < list.children.size()) one = value(*list.children[i]);
+            set_element(array, constant(static_cast<float>(i)), one);
+        }
         return;
     }
     Ids values;

@@ -158,12 +158,13 @@ void Generator::clear(RegisterId id) {
         emit(Op::Move, {id}, {constant(0)});
 }
 
-/// One value serves all elements of an array. A list that is too short leaves the rest 0, so the array is
-/// cleared first.
+/// One value serves all elements of an array. A list that is too short leaves the rest 0 unless it says
+/// otherwise, so the array is cleared first.
 void Generator::initialise(RegisterId id, const Expression& initial) {
     const Type type = program_->reg(id).type;
     if (initial.kind == Expression::Kind::List) {
-        const bool is_short = initial.children.size() < static_cast<size_t>(std::max(type.length, 0));
+        const bool is_short =
+            !initial.repeats && initial.children.size() < static_cast<size_t>(std::max(type.length, 0));
         if (is_short || type.is_unsized()) clear(id);
         return assign_list(initial, id);
     }

@@ -17,7 +17,7 @@ bool same_list(const std::vector<T>& a, const std::vector<T>& b, Same&& same_ite
 
 bool same_expression(const Expression& a, const Expression& b) {
     return a.kind == b.kind && a.op == b.op && a.number == b.number && a.text == b.text && a.type == b.type &&
-           same_list(a.children, b.children, same_expression);
+           a.repeats == b.repeats && same_list(a.children, b.children, same_expression);
 }
 
 bool same_variable(const Variable& a, const Variable& b) {

@@ -216,11 +216,16 @@ TEST(Statements, ArraysAreAssignedWhole) {
         "float sum(float x[]) { float i, all = 0; for (i = 0; i < arraylength(x); i += 1) all += x[i]; "
         "return all; "
         "}");
+    expect_values(
+        "float a[5] = {7, s, ...}; color c[3] = {0, ...}; r = a[0] + 10 * a[1] + 10 * a[4] + comp(c[2], 1); "
+        "a = {1, 2, 3, ...}; r += 100 * (a[1] + a[4]); a = {s, s, s, s, s, ...}; r += a[4];",
+        [](float s, float) { return 7 + 21 * s + 500; }, 1e-4f);
     ShaderRun texts(
         "surface test(output uniform string r = \"\";) { string a[2] = {\"x\", \"y\"}, b[2];"
-        "b = a; a[1] = \"z\"; r = b[0] + b[1] + a[1]; r += \"!\"; }");
+        "b = a; a[1] = \"z\"; r = b[0] + b[1] + a[1]; r += \"!\";"
+        "string c[3] = {\"+\", ...}; r += c[2]; }");
     texts.run();
-    EXPECT_EQ(texts.text("r"), "xyz!") << texts.messages();
+    EXPECT_EQ(texts.text("r"), "xyz!+") << texts.messages();
 }
 
 TEST(Statements, VariablesWithoutValuesAreZeroInEachTurn) {

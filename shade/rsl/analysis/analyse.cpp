@@ -264,8 +264,8 @@ void Analyser::initial_value(Variable& variable) {
     }
 }
 
-/// A list, another array, or one value for all elements. Fewer values than elements leave the rest 0; more
-/// are an error, since some were meant and would be lost.
+/// A list, another array, or one value for all elements. Fewer values than elements leave the rest 0, or the
+/// last value where the list says so; more are an error, since some were meant and would be lost.
 void Analyser::value_of_array(Variable& variable) {
     // Without braces: an array that is copied, or one value for all.
     if (variable.initial->kind != Expression::Kind::List) {
@@ -289,6 +289,8 @@ void Analyser::value_of_array(Variable& variable) {
     std::vector<ExpressionPtr>& values = variable.initial->children;
     const size_t most =
         static_cast<size_t>(variable.type.length == Type::kUnsized ? kLongestArray : variable.type.length);
+    if (variable.initial->repeats && (variable.type.is_unsized() || variable.growable))
+        error(variable.initial->at, "\"...\" fills arrays of a length of their own alone");
     if (values.size() > most)
         error(values[most]->at, std::to_string(values.size()) + " values for the " + std::to_string(most) +
                                     " elements of " + in_quotes(variable.name));

@@ -84,6 +84,13 @@ TEST(Analysis, ArraysAreBounded) {
               "error 1:86: this array has 3 elements, 0 to 2\n"
               "error 1:93: this array has 3 elements, 0 to 2\n");
     EXPECT_EQ(in_surface("float a[2] = {1, 2, 3};"), "error 1:87: 3 values for the 2 elements of \"a\"\n");
+    EXPECT_EQ(in_surface("float a[4] = {1, 2, ...}; a = {3, ...}; a = {1, 2, 3, 4, ...};"), "");
+    EXPECT_EQ(in_surface("float a[1] = {1, 2, ...};"), "error 1:84: 2 values for the 1 elements of \"a\"\n");
+    EXPECT_EQ(in_surface("float a[] = {1, ...};"),
+              "error 1:79: \"...\" fills arrays of a length of their own alone\n");
+    EXPECT_EQ(in_surface("float a[]; a = {1, ...};"),
+              "error 1:82: \"...\" fills arrays of a length of their own alone\n");
+    EXPECT_TRUE(in_surface("float a[4] = {...};").starts_with("error 1:81: expected"));
     EXPECT_EQ(in_surface("float a[] = 3;"), "error 1:79: array \"a\" needs a length, or values in braces\n");
     EXPECT_EQ(in_surface("float a[] = {1, 2}; Ci = a[1];"), "");
     EXPECT_EQ(in_surface("matrix a[65536];"),

@@ -309,6 +309,8 @@ Choices Analyser::array_assignment_types(Expression& e) {
             !is_growable(left))
             error(right.at, std::to_string(right.children.size()) + " values for the " +
                                 std::to_string(left.type.length) + " elements of an array");
+        if (right.repeats && (left.type.is_unsized() || is_growable(left)))
+            error(right.at, "\"...\" fills arrays of a length of their own alone");
     } else if (possible_types(*e.children[1]).is_unknown()) {
         return Choices::unknown();
     }
@@ -321,9 +323,10 @@ Choices Analyser::array_assignment_types(Expression& e) {
         return Choices::unknown();
     }
     check_written(left);
-    const bool keeps_length = right.kind == Expression::Kind::List
-                                  ? right.children.size() == static_cast<size_t>(left.type.length)
-                                  : right.type.length == left.type.length;
+    const bool keeps_length =
+        right.kind == Expression::Kind::List
+            ? right.repeats || right.children.size() == static_cast<size_t>(left.type.length)
+            : right.type.length == left.type.length;
     if (!keeps_length) resize(left, false);
     e.type = left.type;
     return {};

@@ -110,6 +110,7 @@ struct Expression {
     Kind kind = Kind::Number;
     Operator op = Operator::None;
     bool implicit = false;  ///< a conversion that the source does not name
+    bool repeats = false;   ///< of a List: "..." ends it, and its last value is that of all elements behind
     float number = 0;
     std::string text;  ///< a Text's value, a name as written, a Cast's space
     std::vector<ExpressionPtr> children;

@@ -10,6 +10,7 @@ ExpressionPtr clone(const ExpressionPtr& e) {
     copy->kind = e->kind;
     copy->op = e->op;
     copy->implicit = e->implicit;
+    copy->repeats = e->repeats;
     copy->number = e->number;
     copy->text = e->text;
     copy->at = e->at;

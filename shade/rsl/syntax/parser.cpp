@@ -373,6 +373,7 @@ bool Parser::constant_value(const Expression& e, double& value) {
 }
 
 /// An expression, or an array's values in braces. Braces do not nest, as arrays in RSL have one dimension.
+/// {0, ...} fills the array with its last value (3Delight's).
 ExpressionPtr Parser::initial_value() {
     if (!at("{")) return expression();
     auto list = std::make_unique<Expression>();
@@ -381,6 +382,8 @@ ExpressionPtr Parser::initial_value() {
     while (!at("}") && !at_end()) {
         list->children.push_back(expression());
         if (!accept(",")) break;
+        list->repeats = accept("...");
+        if (list->repeats) break;
     }
     expect("}", "after the array's values");
     return finished(std::move(list));

@@ -352,7 +352,7 @@ void Printer::bare(const Expression& e) {
         case Expression::Kind::List:
             text += '{';
             list(e.children);
-            text += '}';
+            text += e.repeats ? ", ...}" : "}";
             break;
         case Expression::Kind::Cast:
             if (e.implicit) return bare(*e.children[0]);
