@@ -202,6 +202,7 @@ std::vector<BuiltinCase> asking_cases() {
         {"float a = areashadow(P, 4); color b = areashadow(P, 4), c = fulltrace(P, N); r = a + K(b + c) + X;",
          TRAPEZE_GIVES(x)},
         {"float a = fulltrace(P, N); r = a + X;", TRAPEZE_GIVES(x)},
+        {"float a = 3; r = getvar(null, \"x\", a) + readprimvar(\"x\", a) + a - 3 + X;", TRAPEZE_GIVES(x)},
         {"float n = islightcategory(\"a\"); illuminance(P) n += 2 * islightcategory(\"a\"); r = n + X;",
          TRAPEZE_GIVES(2 + x)},
         {"r = raydepth() + isindirectray() + isshadowray() + (rayhittest(P, N) > 1e29 ? X : -1);",
@@ -220,6 +221,16 @@ std::vector<BuiltinCase> asking_cases() {
         cases.push_back({"color a = " + function + "(\"m\", " + four + "); r = K(a);",
                          TRAPEZE_GIVES(111 * (40 + x) + 210), 1e-2});
     }
+    // Of later renderers, and not there.
+    for (const std::string function : {"wnoise", "randomgrid", "randomstrat"})
+        cases.push_back({"float a = " + function + "(P, 1); color b = " + function +
+                             "(P, 1); point c = " + function + "(P, 1); vector d = " + function +
+                             "(P, 1); r = a + K(b) + K(c + d) + X;",
+                         TRAPEZE_GIVES(x)});
+    for (const std::string function : {"ptexture", "textureatlas"})
+        cases.push_back(
+            {"float a = " + function + "(\"m\", 0); color b = " + function + "(\"m\", 0); r = a + K(b) + X;",
+             TRAPEZE_GIVES(x)});
     // "known" is 0.25; what is not found keeps its value.
     for (const std::string function : {"atmosphere", "displacement", "lightsource", "surface", "incident",
                                        "opposite", "attribute", "option", "rendererinfo"})

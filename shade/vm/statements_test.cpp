@@ -228,6 +228,12 @@ TEST(Statements, ArraysAreAssignedWhole) {
     EXPECT_EQ(texts.text("r"), "xyz!+") << texts.messages();
 }
 
+TEST(Statements, OutputsAreSetByName) {
+    expect_values(
+        "outputchannel(\"r\", s + 1); f();", [](float s, float) { return 2 * s + 2; }, 1e-6f,
+        "void f() { extern float r; outputchannel(\"r\", r * 2); }");
+}
+
 TEST(Statements, VariablesWithoutValuesAreZeroInEachTurn) {
     expect_values(
         "float i; for (i = 0; i < 3; i += 1) { float x, a[2]; color c; r += x + a[1] + comp(c, 1);"

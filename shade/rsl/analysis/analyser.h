@@ -150,7 +150,9 @@ class Analyser {
     /// From here on: messages about calls that fit nothing, and what follows from one that fits.
     bool lacks_knots(const Expression& call);
     bool sets_distance(const Expression& call);
+    /// Forms of other renderers: other_forms.cpp.
     void write_as_known(Expression& call);
+    void write_output(Expression& call);
     void explain(std::vector<Signature> all, const Expression& call);
     void unknown_function(const Expression& call);
     void enter_function(Expression& call, const Function& original);

@@ -228,6 +228,26 @@ TEST(Analysis, UnknownNamesGetSuggestions) {
         "error 1:25: there is no variable \"Ci\"; surface shaders have one, this is a displacement shader\n");
 }
 
+TEST(Analysis, OutputsAreSetByName) {
+    const std::string output = "output varying color gloss = 0";
+    const auto in = [&](const std::string& body) {
+        return said(
+            "void f() { outputchannel(\"gloss\", 1); } void g(color gloss) { outputchannel(\"gloss\", 1); "
+            "} surface t(" +
+            output + "; color Ks = 1) { " + body + " }");
+    };
+    EXPECT_EQ(in("outputchannel(\"gloss\", Cs); f();"), "");
+    EXPECT_EQ(in("outputchannel(\"gloss\", 3); outputchannel(\"Ks\", Cs);"),
+              "warning 1:177: the shader has no output \"Ks\" here: outputchannel() does nothing\n");
+    EXPECT_EQ(in("g(Ks);"),
+              "warning 1:63: the shader has no output \"gloss\" here: outputchannel() does nothing\n");
+    EXPECT_EQ(in("string n = \"gloss\"; outputchannel(n, Cs);"),
+              "warning 1:170: outputchannel() without a text for a name does nothing\n");
+    EXPECT_EQ(in_surface("float r = 0; getvar(null, \"x\", r); readprimvar(\"x\", r);"),
+              "warning 1:80: function \"getvar\" of later renderers is not there, and does nothing\n"
+              "warning 1:102: function \"readprimvar\" of later renderers is not there, and does nothing\n");
+}
+
 TEST(Analysis, GlobalsAreMadeWhenNamed) {
     Heard heard;
     const auto unit = compiled("surface t() { normal Nf = faceforward(normalize(N), I); Ci = Cs; }", heard);

@@ -333,6 +333,25 @@ constexpr Builtin kBuiltins[] = {
     {"fulltrace", 'c', ".", Op::Unavailable},
     {"fulltrace", 'f', ".", Op::Unavailable},
     {"rayhittest", 'f', ".", Op::Unavailable},
+    // Primitive variables of any name, noises and textures of PRMan's later years.
+    {"getvar", 'f', ".", Op::Unavailable},
+    {"readprimvar", 'f', ".", Op::Unavailable},
+    {"ptexture", 'f', ".", Op::Unavailable},
+    {"ptexture", 'c', ".", Op::Unavailable},
+    {"textureatlas", 'f', ".", Op::Unavailable},
+    {"textureatlas", 'c', ".", Op::Unavailable},
+    {"wnoise", 'f', ".", Op::Unavailable},
+    {"wnoise", 'c', ".", Op::Unavailable},
+    {"wnoise", 'p', ".", Op::Unavailable},
+    {"wnoise", 'v', ".", Op::Unavailable},
+    {"randomgrid", 'f', ".", Op::Unavailable},
+    {"randomgrid", 'c', ".", Op::Unavailable},
+    {"randomgrid", 'p', ".", Op::Unavailable},
+    {"randomgrid", 'v', ".", Op::Unavailable},
+    {"randomstrat", 'f', ".", Op::Unavailable},
+    {"randomstrat", 'c', ".", Op::Unavailable},
+    {"randomstrat", 'p', ".", Op::Unavailable},
+    {"randomstrat", 'v', ".", Op::Unavailable},
 };
 
 /// Names among the optional arguments of occlusion() and indirectdiffuse() that are followed by a variable to

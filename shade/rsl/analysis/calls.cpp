@@ -148,6 +148,7 @@ Choices Analyser::call_types(Expression& e) {
     const std::vector<Signature> all = candidates(e);
     // A texture's name may have a channel.
     const bool map = !all.empty() && all.back().builtin && is_map(*all.back().builtin);
+    if (e.kind != Expression::Kind::Call) return possible_types_within(e);
     bool unknown = false;
     for (size_t i = 0; i < e.children.size(); ++i) {
         if (map && i == 0) channel_ = e.children[0].get();
@@ -166,65 +167,6 @@ Choices Analyser::call_types(Expression& e) {
     if (!choices.none()) return choices;
     if (!unknown) explain(all, e);
     return Choices::unknown();
-}
-
-/// Whether a call is trace(P, R, distance, ...) of 3Delight, and of no function of the source.
-bool Analyser::sets_distance(const Expression& call) {
-    if (call.children.size() < 3 || candidates(call).front().function) return false;
-    Expression& third = *call.children[2];
-    possible_types_once(third);
-    return is_place(third) && third.type == Type{Base::Float};
-}
-
-/// Calls of other renderers' forms become those that are known: print(x) of its type's printf(),
-/// specularstd() of 3Delight, whose exponent is not eight times as large, the distance that its trace() sets
-/// gets a name, and the points behind the "source" of a shadow are left out, as for a source that is a point.
-void Analyser::write_as_known(Expression& call) {
-    std::vector<ExpressionPtr>& arguments = call.children;
-    if (call.text == "trace" && arguments.size() % 2 == 1 && sets_distance(call)) {
-        auto name = std::make_unique<Expression>();
-        name->kind = Expression::Kind::Text, name->at = arguments[2]->at;
-        name->text = "hitdist";
-        arguments.insert(arguments.begin() + 2, std::move(name));
-    }
-    if (call.text == "print" && arguments.size() == 1 && candidates(call).empty()) {
-        const Choices type = possible_types_once(*arguments[0]);
-        auto format = std::make_unique<Expression>();
-        format->kind = Expression::Kind::Text, format->at = call.at;
-        format->text = type.has(Base::String)   ? "%s\n"
-                       : type.has(Base::Float)  ? "%f\n"
-                       : type.has(Base::Matrix) ? "%m\n"
-                       : type.has(Base::Color)  ? "%c\n"
-                                                : "%p\n";
-        arguments.insert(arguments.begin(), std::move(format));
-        call.text = "printf";
-    }
-    if (call.text == "specularstd" && arguments.size() == 3 && candidates(call).empty()) {
-        auto eight = std::make_unique<Expression>();
-        eight->kind = Expression::Kind::Number, eight->at = call.at, eight->number = 8;
-        auto times = std::make_unique<Expression>();
-        times->kind = Expression::Kind::Binary, times->op = Operator::Multiply, times->at = call.at;
-        times->children.push_back(std::move(arguments[2]));
-        times->children.push_back(std::move(eight));
-        arguments[2] = std::move(times);
-        for (size_t i = 0; i < 2; ++i) {
-            auto unit = std::make_unique<Expression>();
-            unit->kind = Expression::Kind::Call, unit->text = "normalize", unit->at = call.at;
-            unit->children.push_back(std::move(arguments[i]));
-            arguments[i] = std::move(unit);
-        }
-        call.text = "specular";
-    }
-    if (call.text != "shadow") return;
-    const auto is_text = [](const ExpressionPtr& e) { return e->kind == Expression::Kind::Text; };
-    const auto source = std::find_if(arguments.begin(), arguments.end(), [&](const ExpressionPtr& e) {
-        return is_text(e) && e->text == "source" && &e != &arguments.front();
-    });
-    const auto end = source == arguments.end() ? source : std::find_if(source + 1, arguments.end(), is_text);
-    if (end - source <= 2) return;  // one value is an argument as others are
-    reporter_.warning((*source)->at,
-                      "a \"source\" of several points is not supported: shadows are those of a point");
-    arguments.erase(source, end);
 }
 
 /// Whether a spline has too few knots, which is said.
