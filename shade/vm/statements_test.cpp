@@ -228,6 +228,13 @@ TEST(Statements, ArraysAreAssignedWhole) {
     EXPECT_EQ(texts.text("r"), "xyz!+") << texts.messages();
 }
 
+TEST(Statements, ArgumentsThatAreLeftOutHaveTheirDefaults) {
+    expect_values(
+        "r = f(s) + 1000 * f(t, 7) + f(0, \"k\", \"yy\", \"b\", 4);",
+        [](float s, float t) { return s + 3 + 10 + 1000 * (t + 7 + 10) + 4 + 20; }, 1e-2f,
+        "float f(float a; float b = 3; string k = \"x\") { return a + b + (k == \"yy\" ? 20 : 10); }");
+}
+
 TEST(Statements, OutputsAreSetByName) {
     expect_values(
         "outputchannel(\"r\", s + 1); f();", [](float s, float) { return 2 * s + 2; }, 1e-6f,

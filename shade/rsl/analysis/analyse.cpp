@@ -54,6 +54,7 @@ void Analyser::run() {
         if (same_name.size() > kMostOverloads)
             return error(function->at, "too many functions are called " + in_quotes(function->name));
     }
+    for (const auto& function : unit_.functions) check_defaults(*function);
     // Two shaders of one name: a scene could not say which it means. Of a class it says by where it names it.
     std::set<std::pair<std::string_view, int>> names;
     for (const auto& shader : unit_.shaders) {
@@ -160,10 +161,6 @@ void Analyser::analyse_body(Function& function) {
     scopes_.emplace_back();
     for (const auto& parameter : function.parameters) {
         if (parameter->external) error(parameter->at, "a function's parameter cannot be extern");
-        if (parameter->initial) {
-            reporter_.warning(parameter->at, "default values of functions' parameters are ignored");
-            parameter->initial.reset();
-        }
         if (parameter->type.length > 0) check_array(*parameter);
         declare(*parameter);
     }
@@ -289,11 +286,11 @@ void Analyser::value_of_array(Variable& variable) {
     std::vector<ExpressionPtr>& values = variable.initial->children;
     const size_t most =
         static_cast<size_t>(variable.type.length == Type::kUnsized ? kLongestArray : variable.type.length);
-    if (variable.initial->repeats && (variable.type.is_unsized() || variable.growable))
-        error(variable.initial->at, "\"...\" fills arrays of a length of their own alone");
     if (values.size() > most)
         error(values[most]->at, std::to_string(values.size()) + " values for the " + std::to_string(most) +
                                     " elements of " + in_quotes(variable.name));
+    if (variable.initial->repeats && (variable.type.is_unsized() || variable.growable))
+        error(variable.initial->at, "\"...\" fills arrays of a length of their own alone");
     for (ExpressionPtr& e : values) value(e, variable.type.base);
     variable.initial->type = variable.type;
 }

@@ -153,6 +153,11 @@ class Analyser {
     /// Forms of other renderers: other_forms.cpp.
     void write_as_known(Expression& call);
     void write_output(Expression& call);
+    // Parameters of functions that have values of their own: default_values.cpp.
+    bool is_plain(const Expression& e) const;
+    void check_defaults(Function& function);
+    void put_in_order(Expression& call, const std::vector<Signature>& all);
+    void add_defaults(Expression& call, const Signature& signature);
     void explain(std::vector<Signature> all, const Expression& call);
     void unknown_function(const Expression& call);
     void enter_function(Expression& call, const Function& original);

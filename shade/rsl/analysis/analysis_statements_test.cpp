@@ -138,13 +138,6 @@ TEST(Analysis, UniformVariablesBecomeVarying) {
     EXPECT_EQ(said("float f(float x) { return x * 2; } surface t() { uniform float a = f(s); }"),
               "warning 1:64: \"a\" is uniform and gets a varying value: it becomes varying\n");
     EXPECT_EQ(said("float f(float x) { return x * 2; } surface t() { uniform float a = f(1); }"), "");
-    EXPECT_EQ(said("float f(uniform float x) { return x * 2; } surface t() { Ci = f(s); }"),
-              "warning 1:65: \"x\" is uniform and gets a varying value: it becomes varying\n");
-}
-
-TEST(Analysis, UniformVariablesPartWithControl) {
-    const auto storage = [](const std::string& body) {
-        Heard heard;
     // A grid has one value of these, though the machine's grids have one each.
     const std::string of_grid =
         "uniform float a = gridmin(s), b = 2 * a + gridavg(t); a = max(gridmax(u), 1);";
@@ -157,6 +150,41 @@ TEST(Analysis, UniformVariablesPartWithControl) {
               "warning 1:97: \"b\" is uniform and gets a varying value: it becomes varying\n");
     EXPECT_EQ(in_surface("uniform float a = gridmin(s) * s;"),
               "warning 1:81: \"a\" is uniform and gets a varying value: it becomes varying\n");
+    EXPECT_EQ(said("float f(uniform float x) { return x * 2; } surface t() { Ci = f(s); }"),
+              "warning 1:65: \"x\" is uniform and gets a varying value: it becomes varying\n");
+}
+
+TEST(Analysis, ParametersOfFunctionsHaveDefaultValues) {
+    const auto with = [](const std::string& parameters, const std::string& call) {
+        return said("float f(" + parameters + ") { return 1; } surface t() { Ci = " + call + "; }");
+    };
+    const std::string ab = "color c; float a = 3; string b = concat(\"x\", \"y\")";
+    for (const char* call : {"f(Cs)", "f(Cs, 2)", "f(Cs, 2, \"z\")", "f(Cs, \"a\", 2)", "f(Cs, \"b\", \"a\")",
+                             "f(Cs, \"b\", \"z\", \"a\", 2)", "f(Cs, 2, \"b\", \"z\")"})
+        EXPECT_EQ(with(ab, call), "") << call;
+    EXPECT_EQ(with(ab, "f(Cs, 2, \"a\", 2)"), "error 1:102: this parameter is given twice\n");
+    EXPECT_EQ(with(ab, "f()"),
+              "error 1:93: no f takes ()\n"
+              "note 1:93: there is float f(color, float = 3, string = concat(\"x\", \"y\"))\n");
+    EXPECT_EQ(with(ab, "f(Cs, 2, 3)"),
+              "error 1:102: argument 3 of f is a float, a string is wanted\n"
+              "note 1:102: float f(color, float = 3, string = concat(\"x\", \"y\"))\n");
+    const std::string ignored =
+        " is ignored: those of functions' parameters stand behind all others, name no variables, and are of "
+        "none that are output or arrays\n";
+    EXPECT_EQ(with("float a = 3; float b", "f(1, 2)"), "warning 1:15: the default value of \"a\"" + ignored);
+    EXPECT_EQ(with("float a = s", "f(1)"), "warning 1:15: the default value of \"a\"" + ignored);
+    EXPECT_EQ(with("output float a = 1", "f(Ci)").substr(0, 43),
+              "warning 1:22: the default value of \"a\" is i");
+    // What takes just these arguments is meant before what has more.
+    EXPECT_EQ(
+        said("void f(float a; float b = 1) { } float f(float a) { return a; } surface t() { Ci = f(1); }"),
+        "");
+}
+
+TEST(Analysis, UniformVariablesPartWithControl) {
+    const auto storage = [](const std::string& body) {
+        Heard heard;
         const auto unit = compiled("surface t() { uniform float a = 0; " + body + " }", heard);
         EXPECT_TRUE(unit) << heard.all();
         EXPECT_EQ(heard.all(), "") << body;

@@ -41,6 +41,7 @@ const Signature::Parameter* parameter_at(const Signature& signature, size_t i) {
 /// Whether a signature takes so many arguments.
 bool count_fits(const Signature& signature, size_t given) {
     const size_t fixed = signature.parameters.size();
+    if (given < fixed && given >= fixed - signature.optional) return true;
     if (given == fixed || (given > fixed && (signature.more || signature.anything))) return true;
     return signature.pairs && given > fixed && (given - fixed) % 2 == 0;
 }
@@ -125,6 +126,8 @@ std::vector<int> Analyser::costs_of(const std::vector<Signature>& all, const Exp
 int Analyser::cost_of(const Signature& signature, const Expression& call, bool as_they_are) const {
     if (!count_fits(signature, call.children.size())) return Choices::kNever;
     int cost = signature.builtin && signature.builtin->last_resort ? kLastResort : 0;
+    // What takes so many arguments and no more is meant before what has default values for others.
+    if (call.children.size() < signature.parameters.size()) ++cost;
     for (size_t i = 0; i < call.children.size(); ++i) {
         const Expression& argument = *call.children[i];
         int one = 0;
@@ -145,10 +148,11 @@ int Analyser::cost_of(const Signature& signature, const Expression& call, bool a
 /// all that fit are offered upwards, and one is chosen on the way back.
 Choices Analyser::call_types(Expression& e) {
     write_as_known(e);
+    if (e.kind != Expression::Kind::Call) return possible_types_within(e);
     const std::vector<Signature> all = candidates(e);
+    put_in_order(e, all);
     // A texture's name may have a channel.
     const bool map = !all.empty() && all.back().builtin && is_map(*all.back().builtin);
-    if (e.kind != Expression::Kind::Call) return possible_types_within(e);
     bool unknown = false;
     for (size_t i = 0; i < e.children.size(); ++i) {
         if (map && i == 0) channel_ = e.children[0].get();
@@ -196,7 +200,8 @@ void Analyser::explain(std::vector<Signature> all, const Expression& call) {
             const Expression& argument = *call.children[i];
             const Signature::Parameter* parameter = parameter_at(signature, i);
             if (!parameter || cost_of_argument(*parameter, argument) < Choices::kNever) continue;
-            const std::string which = "argument " + std::to_string(i + 1) + " of " + call.text + " ";
+            const std::string which = "argument " + std::to_string(i + 1 - std::min(i, signature.hidden)) +
+                                      " of " + call.text + " ";
             const std::string is =
                 argument.type.is_array() ? print(argument.type) : choices_of(argument).text();
             if (parameter->output && !is_place(argument))
@@ -209,9 +214,11 @@ void Analyser::explain(std::vector<Signature> all, const Expression& call) {
     }
     std::string given;
     // Several fit by their number, or none: the arguments' types and the overloads are shown side by side.
-    for (const ExpressionPtr& argument : call.children)
+    for (size_t i = all.front().hidden; i < call.children.size(); ++i) {
+        const Expression& argument = *call.children[i];
         given += (given.empty() ? "" : ", ") +
-                 (argument->type.is_array() ? print(argument->type) : choices_of(*argument).text());
+                 (argument.type.is_array() ? print(argument.type) : choices_of(argument).text());
+    }
     error(call.at, "no " + call.text + " takes (" + given + ")");
     for (size_t i = 0; i < std::min(all.size(), kMostCandidatesShown); ++i)
         reporter_.note(call.at, "there is " + print(all[i]));
@@ -249,6 +256,7 @@ void Analyser::choose_call(Expression& e, Base base) {
     if (!best) return;  // reported
     e.builtin = best->builtin;
     if (e.builtin && e.builtin->op == Op::Spline) lacks_knots(e);
+    add_defaults(e, *best);
     for (size_t i = 0; i < e.children.size(); ++i) choose_argument(e, i, *best);
     // The copy of the function is made only now, when nothing else may still be meant.
     if (best->function)

@@ -56,7 +56,8 @@ Signature signature_of(const Builtin& builtin) {
     return signature;
 }
 
-/// Of a function of the source: no optional arguments, as many as it has parameters. Views point into the
+/// Of a function of the source: as many arguments as it has parameters, without those that have default
+/// values. Views point into the
 /// function, which outlives the signature.
 Signature signature_of(const Function& function) {
     Signature signature;
@@ -65,6 +66,9 @@ Signature signature_of(const Function& function) {
     signature.function = &function;
     for (const auto& parameter : function.parameters)
         signature.parameters.push_back({parameter->type, parameter->output, false, false});
+    signature.hidden = function.hidden;
+    for (size_t i = function.parameters.size(); i-- > 0 && function.parameters[i]->initial;)
+        ++signature.optional;
     return signature;
 }
 
@@ -73,11 +77,14 @@ Signature signature_of(const Function& function) {
 std::string print(const Signature& signature) {
     std::string text = print(signature.result) + " " + std::string(signature.name) + "(";
     const char* separator = "";
-    for (const Signature::Parameter& parameter : signature.parameters) {
+    for (size_t i = signature.hidden; i < signature.parameters.size(); ++i) {
+        const Signature::Parameter& parameter = signature.parameters[i];
         text += std::string(separator) + (parameter.output ? "output " : "") +
                 (parameter.any         ? "any type"
                  : parameter.any_array ? "any array"
                                        : print(parameter.type));
+        if (i >= signature.parameters.size() - signature.optional)
+            text += " = " + print(*signature.function->parameters[i]->initial);
         separator = ", ";
     }
     if (signature.more || signature.anything) text += std::string(separator) + "...";

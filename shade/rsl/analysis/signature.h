@@ -22,6 +22,8 @@ struct Signature {
     std::string_view name;
     Type result;
     std::vector<Parameter> parameters;
+    size_t hidden = 0;    ///< parameters in front that nobody writes
+    size_t optional = 0;  ///< parameters at the end that have default values
     /// At most one of these three is set; all are about arguments behind the parameters.
     bool more = false;      ///< further arguments are like the last
     bool pairs = false;     ///< pairs of a string and any value follow

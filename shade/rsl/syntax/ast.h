@@ -109,7 +109,8 @@ struct Expression {
     };
     Kind kind = Kind::Number;
     Operator op = Operator::None;
-    bool implicit = false;  ///< a conversion that the source does not name
+    bool implicit = false;  ///< a conversion that the source does not name; of a Call: its arguments have
+                            ///< been put in order
     bool repeats = false;   ///< of a List: "..." ends it, and its last value is that of all elements behind
     float number = 0;
     std::string text;  ///< a Text's value, a name as written, a Cast's space
@@ -190,6 +191,7 @@ struct Function {
     const Struct* result_structure = nullptr;  ///< it returns a struct: `result` says nothing
     const Struct* method_of = nullptr;         ///< its members are known by their names alone
     std::vector<std::unique_ptr<Variable>> parameters;
+    size_t hidden = 0;  ///< parameters in front that the source does not name: members of structs
     StatementPtr body;
     SourceLocation at;
     /// The nested functions of a shader's or function's body are listed with the file's, by the parser;

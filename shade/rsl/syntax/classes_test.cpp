@@ -100,6 +100,15 @@ TEST(Classes, MethodsSeeMembersParametersAndOneAnother) {
               "");
 }
 
+TEST(Classes, MethodsHaveDefaultValues) {
+    EXPECT_EQ(
+        said("class a() {\n"
+             "    public void init(color cc; uniform float q = 3;) { }\n"
+             "    public void surface(output color Ci, Oi) { init(Cs); init(Cs, \"q\", 2); Ci = Oi = 1; }\n"
+             "}\n"),
+        "");
+}
+
 TEST(Classes, ErrorsHaveAPlaceAndTheRestIsRead) {
     EXPECT_EQ(said("class a() { public void surface(output color Ci, Oi) { Ci = x; y = 1; } }"),
               "error 1:61: there is no variable \"x\"\nerror 1:64: there is no variable \"y\"\n");

@@ -64,6 +64,7 @@ std::unique_ptr<Function> clone(const Function& function) {
     copy->result = function.result;
     copy->inside = function.inside;
     copy->typed = function.typed;
+    copy->hidden = function.hidden;
     copy->at = function.at;
     for (const auto& parameter : function.parameters) copy->parameters.push_back(clone(*parameter));
     copy->body = clone(*function.body);

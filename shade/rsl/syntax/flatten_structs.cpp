@@ -447,8 +447,11 @@ class Flattener {
             add_members(self, {}, parameters);
             declare(self);
         }
+        f.hidden = parameters.size();
         for (auto& parameter : f.parameters) {
             declare(*parameter);
+            if (parameter->structure && parameter->initial)
+                reporter_.warning(parameter->at, "default values of structs are ignored here");
             if (parameter->structure)
                 add_members(*parameter, {}, parameters);
             else

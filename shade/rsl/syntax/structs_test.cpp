@@ -90,6 +90,16 @@ TEST(Structs, MethodsSeeMembersAndOneAnother) {
               "error 1:31: there is no variable \"z\"\n");
 }
 
+/// The members that stand in front of a method's parameters are not shown.
+TEST(Structs, MethodsHaveDefaultValues) {
+    EXPECT_EQ(said("struct A { float x = 1; void init(color cc; uniform float q = 3) { x = q; } }\n"
+                   "surface t() { A a; a->init(Cs); a->init(Cs, \"q\", 2);\na->init(Cs, Cs);\na->init(); }"),
+              "error 3:13: argument 2 of A->init is a color, a float is wanted\n"
+              "note 3:13: void A->init(color, float = 3)\n"
+              "error 4:2: no A->init takes ()\n"
+              "note 4:2: there is void A->init(color, float = 3)\n");
+}
+
 TEST(Structs, ValuesFit) {
     EXPECT_EQ(in_surface_with_struct("Float2 a = Float2(1, 2, 3);"),
               "error 3:12: struct \"Float2\" has 2 members, not 3\n");
