@@ -79,12 +79,16 @@ TEST(ReadProcedurals, WhatIsNotThereIsAnErrorWhereItWouldNotRunEither) {
     const std::string scene = "WorldBegin Procedural \"RunProgram\" [\"no-such-program 1\" \"\"] " +
                               kUnitBound + "Procedural \"RunProgram\" [\"no-such-program 1\" \"\"] " +
                               kUnitBound + "Procedural \"DynamicLoad\" [\"no-library\" \"\"] " + kUnitBound +
-                              "WorldEnd";
+                              "Procedural2 \"ProcDynamicLoad\" \"BoundProc\" \"string dsoname\" "
+                              "[\"none-either\"] \"string data\" [\"\"] Procedural2 \"ProcDynamicLoad\" "
+                              "\"BoundProc\" WorldEnd";
     const ReadOutcome outcome = read_files(folder, {folder.write("a.rib", scene)}, options);
     EXPECT_THAT(outcome.messages,
                 ElementsAre(HasSubstr("error: Procedural: the program \"no-such-program 1\" is not found"),
                             HasSubstr("programs are run only where that is allowed"),
-                            HasSubstr("error: Procedural: the procedural \"no-library\" is not found")));
+                            HasSubstr("error: Procedural: the procedural \"no-library\" is not found"),
+                            HasSubstr("error: Procedural2: the procedural \"none-either\" is not found"),
+                            HasSubstr("\"dsoname\" is missing")));
 }
 
 /// A program beside the scene, which is asked `requests` times.

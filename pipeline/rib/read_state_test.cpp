@@ -336,6 +336,14 @@ TEST(ReadState, InstancesBeyondTheLimitAreLeftOut) {
     EXPECT_THAT(r.messages, ElementsAre(::testing::HasSubstr("instances make more than 3 primitives")));
 }
 
+TEST(ReadState, InstancesMayHaveParameters) {
+    const ReadOutcome r = read_world("ObjectBegin \"a\" " + kSphere +
+                                     "ObjectEnd ObjectInstance \"a\" \"float x\" 1 ObjectInstance \"a\" "
+                                     "\"float x\" [2]");
+    EXPECT_EQ(r.count(), 2u);
+    EXPECT_THAT(r.messages, ElementsAre(::testing::HasSubstr("ObjectInstance: parameters are not used")));
+}
+
 TEST(ReadState, MisplacedRequestsAreSkipped) {
     for (const char* text : {"WorldBegin",
                              "FrameBegin 1",

@@ -31,7 +31,15 @@ void procedural(ProceduralContext& r, ArgumentCursor& c) {
         refuse(kind);
 }
 
-/// Name, how it is bounded, and the rest as parameters.
+/// The box of a Procedural2; nothing where there is none.
+std::vector<float> box_of(const ParameterList& parameters) {
+    const Parameter* const hidden = parameters.find("__bound");
+    const Parameter* const bound = hidden ? hidden : parameters.find("bound");
+    return bound && bound->floats.size() == 6 ? bound->floats : std::vector<float>();
+}
+
+/// Name, how it is bounded, and the rest as parameters. "ProcDynamicLoad" is 3Delight's, of libraries as
+/// Procedural has them.
 void procedural2(ProceduralContext& r, ArgumentCursor& c) {
     const std::string kind = c.string("the procedural's name");
     c.string("the kind of bound");
@@ -42,11 +50,11 @@ void procedural2(ProceduralContext& r, ArgumentCursor& c) {
         r.procedurals.delayed_archive(file);
     } else if (kind == "RunProgram" || kind == "RunProgram2") {
         if (file.empty()) throw RequestError{"\"filename\" is missing", {}};
-        const Parameter* const hidden = parameters.find("__bound");
-        const Parameter* const bound = hidden ? hidden : parameters.find("bound");
-        const bool is_box = bound && bound->floats.size() == 6;
-        r.procedurals.run_program(file, parameters.string_or("data", ""),
-                                  is_box ? bound->floats : std::vector<float>());
+        r.procedurals.run_program(file, parameters.string_or("data", ""), box_of(parameters));
+    } else if (kind == "ProcDynamicLoad") {
+        const std::string library = parameters.string_or("dsoname", "");
+        if (library.empty()) throw RequestError{"\"dsoname\" is missing", {}};
+        r.procedurals.load_procedural(library, parameters.string_or("data", ""), box_of(parameters));
     } else {
         refuse(kind);
     }

@@ -50,6 +50,14 @@ void read_archive(StructureContext& r, ArgumentCursor& c) {
     r.stream.read_archive(name);
 }
 
+/// Parameters are later renderers', and set variables of the instance there.
+void object_instance(StructureContext& r, ArgumentCursor& c) {
+    const std::string handle = c.handle("the handle");
+    if (!r.parameters(c, Undeclared::Guess).values.empty())
+        r.report.warn_once("parameters are not used", "instance-parameters");
+    r.scene.instance(handle);
+}
+
 /// Requests that make the order of a file: no motion block holds them back.
 constexpr RequestRow kStructureRequests[] = {
     {"version", version},
@@ -73,8 +81,7 @@ constexpr RequestRow kStructureRequests[] = {
     {"ObjectBegin",
      [](StructureContext& r, ArgumentCursor& c) { r.scene.begin_object(c.handle("the handle")); }},
     {"ObjectEnd", [](StructureContext& r, ArgumentCursor&) { r.blocks.end(BlockKind::Object); }},
-    {"ObjectInstance",
-     [](StructureContext& r, ArgumentCursor& c) { r.scene.instance(c.handle("the handle")); }},
+    {"ObjectInstance", object_instance},
 };
 
 }  // namespace
