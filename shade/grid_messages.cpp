@@ -4,6 +4,8 @@
 #include <array>
 #include <cstring>
 
+#include "shade/materials/bound_shader.h"
+#include "shade/materials/fill_plane.h"
 #include "shade/materials/named_values.h"
 
 namespace trapeze {
@@ -78,6 +80,29 @@ bool set_named(const std::optional<NamedValue>& value, rsl::Type type, const vm:
 
 }  // namespace
 
+/// A variable that the primitive has by itself, and no predefined one. Grids of a run are one primitive's, if
+/// any of its shaders ask (Material::asks_primitive). Texts must be the same in all of them.
+bool GridMessages::find_variable(std::string_view name, rsl::Type type, const vm::Operand& out,
+                                 std::span<std::string> texts) const {
+    const auto variable_of = [&](const ShadingGrid& grid) -> const GridVariable* {
+        const GridVariable* const variable = grid.find(name);
+        return variable && can_take(type, *variable) ? variable : nullptr;
+    };
+    const GridVariable* const first = grids.empty() ? nullptr : variable_of(*grids.front());
+    if (!first) return false;
+    if (type.base == Base::String)
+        return first->declaration.storage == StorageClass::Constant && set_texts(first->strings, type, texts);
+    for (size_t p = 0; p < first->planes.size(); ++p) {
+        const size_t width = static_cast<size_t>(rsl::width_of(type.base));
+        float* const to = out.data + (p / width) * out.element_stride + (p % width) * out.stride;
+        if (out.lane_mask)
+            fill_plane(grids, variable_of, p, 0.0f, {to, out.element_stride / width});
+        else
+            std::fill_n(to, kLanes, first->planes[p].front());
+    }
+    return true;
+}
+
 bool GridMessages::find(Op what, std::string_view name, rsl::Type type, const vm::Operand& out,
                         std::span<std::string> texts, const vm::Registers* light) {
     switch (what) {
@@ -90,6 +115,8 @@ bool GridMessages::find(Op what, std::string_view name, rsl::Type type, const vm
         case Op::AtmosphereMessage:
         case Op::IncidentMessage:  // the volume between the eye and the surface
             return copy_variable(atmosphere, name, type, out, texts);
+        case Op::VariableMessage:
+            return find_variable(name, type, out, texts);
         case Op::AttributeMessage:
             return attributes &&
                    set_named(find_attribute_value(*attributes, primitive, name), type, out, texts);

@@ -20,14 +20,18 @@ class GridMessages : public vm::Messages {
     const vm::Registers* displacement = nullptr;
     const vm::Registers* atmosphere = nullptr;
     const Attributes* attributes = nullptr;
-    const Primitive* primitive = nullptr;  ///< that the attributes are of; it may be null
-    std::string running;                   ///< the name of the shader that runs
+    const Primitive* primitive = nullptr;       ///< that the attributes are of; it may be null
+    std::span<const ShadingGrid* const> grids;  ///< of the shader that runs; none: it asks for no variables
+    std::string running;                        ///< the name of the shader that runs
 
     bool find(rsl::Op what, std::string_view name, rsl::Type type, const vm::Operand& out,
               std::span<std::string> texts, const vm::Registers* light) override;
     std::string shader_name(std::string_view kind) override;
 
   private:
+    bool find_variable(std::string_view name, rsl::Type type, const vm::Operand& out,
+                       std::span<std::string> texts) const;
+
     const RenderContext& context_;
 };
 

@@ -86,7 +86,7 @@ void see_displaced(bool moves_on, ShadingGrid& grid) {
 
 bool can_share_run(const Material& material, const Material* left, const ShadingGrid& a,
                    const ShadingGrid& b) {
-    if (material.asks_object_space && a.primitive != b.primitive) return false;
+    if (material.asks_primitive && a.primitive != b.primitive) return false;
     if (a.medium != b.medium || a.own_colors != b.own_colors || a.is_end != b.is_end) return false;
     return same_uniforms(material.displacement, a, b) && same_uniforms(material.surface, a, b) &&
            same_uniforms(volume_before(a, material, left), a, b);
@@ -217,6 +217,8 @@ Task<vm::Registers*> GridRun::run_layer(const LayeredShader& shader, size_t laye
     GridFootprints footprints(grids, context_.camera, stretched);
     set_variables(registers, grids, context_, footprints, shaded, all);
     messages_.running = bound.program().name;
+    // What is within another primitive does not know this one's variables.
+    messages_.grids = left_ && &shader == volume() ? std::span<const ShadingGrid* const>() : grids;
     // Lights may ask the surface that asks them.
     if (bound.program().kind == rsl::ShaderKind::Surface) messages_.surface = &registers;
     const Primitive* object = grids.front()->primitive;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/scene/scene.h"
+#include "shade/materials/fill_plane.h"
 #include "shade/materials/shader_library.h"
 
 namespace trapeze {
@@ -66,16 +67,6 @@ size_t element_count(const rsl::Type& type, size_t given) {
     return type.is_unsized() ? given : static_cast<size_t>(std::max(type.length, 1));
 }
 
-/// Whether a parameter of this type can take a variable's values, with as many elements.
-bool can_take(const rsl::Type& type, const GridVariable& variable) {
-    if (!suits(variable.declaration.type, type.base)) return false;
-    if (type.base == Base::String) return !variable.strings.empty();
-    const size_t width = static_cast<size_t>(rsl::width_of(type.base));
-    const size_t planes = element_count(type, variable.planes.size() / width) * width;
-    return planes > 0 && variable.planes.size() == planes &&
-           std::ranges::none_of(variable.planes, [](const auto& plane) { return plane.empty(); });
-}
-
 /// The same of what rays bring along, of which texts are as many, too.
 bool can_take_sent(const rsl::Type& type, const GridVariable& variable) {
     return can_take(type, variable) &&
@@ -112,6 +103,15 @@ size_t give_value(vm::Registers& registers, const rsl::ProgramParameter& paramet
 }
 
 }  // namespace
+
+bool can_take(const rsl::Type& type, const GridVariable& variable) {
+    if (!suits(variable.declaration.type, type.base)) return false;
+    if (type.base == Base::String) return !variable.strings.empty();
+    const size_t width = static_cast<size_t>(rsl::width_of(type.base));
+    const size_t planes = element_count(type, variable.planes.size() / width) * width;
+    return planes > 0 && variable.planes.size() == planes &&
+           std::ranges::none_of(variable.planes, [](const auto& plane) { return plane.empty(); });
+}
 
 BoundShader::BoundShader(std::shared_ptr<const vm::Executable> executable, const ShaderInstance& instance,
                          const vm::Spaces& spaces, Diagnostics* diagnostics)
@@ -247,17 +247,10 @@ void BoundShader::set_parameters(vm::Registers& registers, std::span<const Shadi
                 std::fill_n(to, plane, variable->planes[p].front());
                 continue;
             }
-            size_t at = 0;
-            for (const ShadingGrid* grid : grids) {
-                const GridVariable* own = suitable_variable(*grid, program(), parameter);
-                const size_t count = grid->vertex_count();
-                if (!own || own->uniform || own->planes[p].size() < count)
-                    std::fill_n(to + at, count, own ? own->planes[p].front() : value.floats[p]);
-                else
-                    std::copy_n(own->planes[p].begin(), count, to + at);
-                at += count;
-            }
-            std::fill(to + at, to + plane, at ? to[at - 1] : 0.0f);
+            const auto own = [&](const ShadingGrid& grid) {
+                return suitable_variable(grid, program(), parameter);
+            };
+            fill_plane(grids, own, p, value.floats[p], {to, plane});
         }
     }
 }

@@ -66,6 +66,9 @@ class BoundShader {
     std::vector<size_t> run_defaults_;  ///< parameters that wait for the run: their values are 0
 };
 
+/// Whether a variable of this type can take a primitive variable's values, with as many elements.
+bool can_take(const rsl::Type& type, const GridVariable& variable);
+
 /// What stands in place of a parameter of a program's: what a ray has brought along for it, else the
 /// primitive variable of its name, if the parameter can take the values and has as many elements; null when
 /// there is none.

@@ -18,8 +18,9 @@ struct Lamp {
     /// The same with varying parameters where illuminance of any shader of the scene may send values for
     /// them ("send:light:NAME"); null where there are none.
     std::unique_ptr<BoundShader> told;
-    V3f position;               ///< the origin of its shader space, in camera space: P of the light shader
-    bool asks_surface = false;  ///< by surface(): for variables of the surface that it shines on
+    V3f position;                 ///< the origin of its shader space, in camera space: P of the light shader
+    bool asks_surface = false;    ///< by surface(): for variables of the surface that it shines on
+    bool asks_variables = false;  ///< for those of the primitive that it shines on
     /// What it shines from, where its shader asks for points of that; else null.
     const LightInstance* area = nullptr;
     /// Of that: at shutter open, and of a light that moves in the middles of equal parts of the shutter, too

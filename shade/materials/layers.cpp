@@ -73,9 +73,21 @@ bool asks_object_space(const rsl::Program& program) {
 
 }  // namespace
 
-bool LayeredShader::asks_object_space() const {
-    return std::ranges::any_of(
-        layers, [](const BoundShader* layer) { return trapeze::asks_object_space(layer->program()); });
+bool asks_variables(const rsl::Program& program) {
+    const auto asks = [](const rsl::Code& code) {
+        return std::ranges::any_of(
+            code, [](const rsl::Instruction& i) { return i.op == rsl::Op::VariableMessage; });
+    };
+    return asks(program.code) ||
+           std::ranges::any_of(program.parameters, [&](const rsl::ProgramParameter& parameter) {
+               return asks(parameter.initial);
+           });
+}
+
+bool LayeredShader::asks_primitive() const {
+    return std::ranges::any_of(layers, [](const BoundShader* layer) {
+        return asks_object_space(layer->program()) || asks_variables(layer->program());
+    });
 }
 
 void LayeredShader::connect(size_t to, std::span<vm::Registers* const> registers) const {

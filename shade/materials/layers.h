@@ -21,14 +21,17 @@ struct LayeredShader {
 
     const BoundShader& last() const { return *layers.back(); }
 
-    /// Whether a layer may ask for the space named "object", which grids of different primitives do not
-    /// share.
-    bool asks_object_space() const;
+    /// Whether a layer asks for variables of the primitive by name, or may ask for the space named "object":
+    /// grids of different primitives do not share these.
+    bool asks_primitive() const;
 
     /// Copies what earlier layers have into the variables of layer `to`. registers[i] is layer i's, all of as
     /// many lanes.
     void connect(size_t to, std::span<vm::Registers* const> registers) const;
 };
+
+/// Whether a program asks for variables of the primitive by name: getvar().
+bool asks_variables(const rsl::Program& program);
 
 /// Names of a layer's parameters that connections set. They vary over grids, whatever the shader declares.
 std::vector<std::string> connected_parameters(const ShaderInstance& instance, const std::string& layer);

@@ -92,10 +92,11 @@ void Materials::add(const Attributes& attributes, const Names& varying) {
     if (!material.surface_moves) material.surface_opacity = opacity_of(*material.surface);
     material.surface_only_sets_P = sets_P && !material.surface_moves && !material.displacement;
     for (const LayeredShader* shader : {material.surface, material.displacement, material.atmosphere})
-        material.asks_object_space |= shader && shader->asks_object_space();
+        material.asks_primitive |= shader && shader->asks_primitive();
     for (const auto& instance : attributes.lights)
         if (const Lamp* shining = lamp(*instance)) {
             material.lights.push_back(shining);
+            material.asks_primitive |= shining->asks_variables;
             if (!shining->area) material.other_lights.push_back(shining);
         }
     material.shades_vertices_apart = shades_vertices_apart(material);
@@ -196,6 +197,7 @@ const Lamp* Materials::lamp(const LightInstance& instance) {
     made->asks_surface = std::ranges::any_of(made->shader->program().code, [](const rsl::Instruction& i) {
         return i.op == rsl::Op::SurfaceMessage;
     });
+    made->asks_variables = asks_variables(made->shader->program());
     at->second = std::move(made);
     lamp_order_.push_back(at->second.get());
     return at->second.get();

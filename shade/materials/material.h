@@ -32,8 +32,8 @@ struct Material {
     const LayeredShader *interior = nullptr, *exterior = nullptr;
     /// Their parts as of surface_opacity.
     const LayeredShader *interior_opacity = nullptr, *exterior_opacity = nullptr;
-    /// Whether a shader asks for object space: grids of different primitives can then not share a run.
-    bool asks_object_space = false;
+    /// Whether a shader asks what grids of different primitives do not share: they can then not share a run.
+    bool asks_primitive = false;
     /// Whether the surface shader sets P and there is a displacement bound: the shader then displaces the
     /// surface, too.
     bool surface_moves = false;

@@ -54,6 +54,68 @@ TEST(NamedValues, ArraysOfTextsComeWhole) {
     EXPECT_EQ(shaded(scene, "illuminance(P) Ci += Cl;"), 11);
 }
 
+/// Two grids in a run: each has its own values, and uniform ones beside varying ones.
+TEST(NamedValues, VariablesOfThePrimitiveByName) {
+    testing::ShadingScene scene;
+    testing::ShaderFolder folder;
+    folder.write(
+        "probe",
+        "surface probe() { float w = -1, none = 5; color c = 0; string k = \"\"; Oi = 1;"
+        " Ci = color (getvar(null, \"weight\", w) + 10 * readprimvar(\"tint\", c) + 100 * getvar(\"kind\", "
+        "k), getvar(\"none\", none) + getvar(\"weight\", c) + none, w + 10 * comp(c, 1) + (k == \"oak\" ? "
+        "100 : 0)); }");
+    scene.scene.options.search_paths["shader"] = {folder.path()};
+    scene.surface("probe");
+    std::vector<ShadingGrid> grids{scene.grid(), scene.grid(2, 1)};
+    for (size_t g = 0; g < grids.size(); ++g) {
+        std::vector<float> weights(grids[g].vertex_count());
+        for (size_t i = 0; i < weights.size(); ++i) weights[i] = static_cast<float>(i + 50 * g) / 100;
+        const float green = g == 0 ? 0.25f : 0.5f;
+        grids[g].variables = {
+            {"weight", {StorageClass::Varying, ValueType::Float, 1}, false, {weights}, {}},
+            {"tint", {StorageClass::Uniform, ValueType::Color, 1}, true, {{0}, {green}, {1}}, {}},
+            {"kind", {StorageClass::Constant, ValueType::String, 1}, true, {}, {"oak"}}};
+        grids[g].ordinal = g;
+    }
+    const Shading shading(scene.context);
+    ShadeScratch scratch;
+    ShadeStats stats;
+    shading.shade(std::vector{&grids[0], &grids[1]}, scratch, stats);
+    for (const Diagnostic& d : scene.reported) ADD_FAILURE() << to_string(d);
+    for (size_t g = 0; g < grids.size(); ++g)
+        for (size_t i = 0; i < grids[g].vertex_count(); ++i) {
+            const V3f Ci = grids[g].Ci.at(i);
+            EXPECT_EQ(Ci.x, 111);
+            EXPECT_EQ(Ci.y, 5);
+            EXPECT_NEAR(Ci.z, static_cast<float>(i + 50 * g) / 100 + (g == 0 ? 2.5f : 5) + 100, 1e-4f);
+        }
+}
+
+/// Grids of two primitives of the same attributes, one of which has the variable.
+TEST(NamedValues, VariablesOfOnePrimitiveAreNoOthers) {
+    testing::ShadingScene scene;
+    testing::ShaderFolder folder;
+    folder.write("probe", "surface probe() { Oi = 1; Ci = 0; illuminance(P) Ci += Cl; }");
+    folder.write("asking",
+                 "light asking() { float w = 7; solar(vector (0, 0, 1), 0) { Cl = 10 * getvar(null, "
+                 "\"w\", w) + w; } }");
+    scene.scene.options.search_paths["shader"] = {folder.path()};
+    scene.surface("probe");
+    scene.light("asking");
+    scene.scene.primitives.push_back(scene.scene.primitives[0]);
+    std::vector<ShadingGrid> grids{scene.grid(), scene.grid()};
+    for (uint32_t g = 0; g < 2; ++g)
+        grids[g].ordinal = g, grids[g].primitive_index = g, grids[g].primitive = &scene.scene.primitives[g];
+    grids[1].variables = {{"w", {StorageClass::Uniform, ValueType::Float, 1}, true, {{3}}, {}}};
+    const Shading shading(scene.context);
+    ShadeScratch scratch;
+    ShadeStats stats;
+    shading.shade(std::vector{&grids[0], &grids[1]}, scratch, stats);
+    for (const Diagnostic& d : scene.reported) ADD_FAILURE() << to_string(d);
+    for (const float red : grids[0].Ci.c[0]) EXPECT_EQ(red, 7);
+    for (const float red : grids[1].Ci.c[0]) EXPECT_EQ(red, 13);
+}
+
 Numbers numbers(const std::optional<NamedValue>& value) {
     return value ? value->numbers : Numbers{-1};
 }

@@ -41,17 +41,10 @@ void shader_name(Run& run, const Step& step, std::span<const Operand>) {
 }
 
 constexpr ContextRow kMessageRows[] = {
-    {Op::LightMessage, ask},
-    {Op::SurfaceMessage, ask},
-    {Op::DisplacementMessage, ask},
-    {Op::AtmosphereMessage, ask},
-    {Op::IncidentMessage, ask},
-    {Op::OppositeMessage, ask},
-    {Op::AttributeMessage, ask},
-    {Op::OptionMessage, ask},
-    {Op::RendererInfo, ask},
-    {Op::ShaderName, shader_name},
-    {Op::IsLightCategory, is_light_category},
+    {Op::LightMessage, ask},      {Op::SurfaceMessage, ask},     {Op::DisplacementMessage, ask},
+    {Op::AtmosphereMessage, ask}, {Op::IncidentMessage, ask},    {Op::OppositeMessage, ask},
+    {Op::VariableMessage, ask},   {Op::AttributeMessage, ask},   {Op::OptionMessage, ask},
+    {Op::RendererInfo, ask},      {Op::ShaderName, shader_name}, {Op::IsLightCategory, is_light_category},
 };
 
 }  // namespace

@@ -283,6 +283,8 @@ constexpr Builtin kBuiltins[] = {
     {"incident", 'f', "s?", Op::IncidentMessage},
     {"opposite", 'f', "s?", Op::OppositeMessage},
     {"attribute", 'f', "s?", Op::AttributeMessage},
+    {"getvar", 'f', "s?", Op::VariableMessage},  // 3Delight's, of the object that is shaded
+    {"readprimvar", 'f', "s?", Op::VariableMessage},
     {"option", 'f', "s?", Op::OptionMessage},
     {"rendererinfo", 'f', "s?", Op::RendererInfo},
     {"shadername", 's', "", Op::ShaderName},
@@ -333,9 +335,7 @@ constexpr Builtin kBuiltins[] = {
     {"fulltrace", 'c', ".", Op::Unavailable},
     {"fulltrace", 'f', ".", Op::Unavailable},
     {"rayhittest", 'f', ".", Op::Unavailable},
-    // Primitive variables of any name, noises and textures of PRMan's later years.
-    {"getvar", 'f', ".", Op::Unavailable},
-    {"readprimvar", 'f', ".", Op::Unavailable},
+    // Noises and textures of PRMan's later years.
     {"ptexture", 'f', ".", Op::Unavailable},
     {"ptexture", 'c', ".", Op::Unavailable},
     {"textureatlas", 'f', ".", Op::Unavailable},

@@ -6,7 +6,7 @@
 namespace trapeze::rsl {
 namespace {
 
-/// The object that getvar(null, ...) asks, the one that is shaded.
+/// The object that getvar(null, ...) asks: the one that is shaded.
 bool is_null(const Expression& e) {
     return e.kind == Expression::Kind::Variable && e.text == "null";
 }
