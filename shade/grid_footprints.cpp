@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <variant>
 
 #include "core/axis_frame.h"
 #include "core/portable_math.h"
@@ -37,24 +38,31 @@ ParameterSteps mean_steps(const ShadingGrid& grid, size_t first) {
             {step(grid.u, v0, v1, shape.nv, 0), step(grid.v, v0, v1, shape.nv, 1)}};
 }
 
+/// Whether the grid is of a patch that is trimmed: its border's pieces lie as the curves run.
+bool is_trimmed(const ShadingGrid& grid) {
+    if (!grid.primitive || grid.primitive->shape_keys.empty()) return false;
+    const auto* patch = std::get_if<NuPatch>(&grid.primitive->shape().topology);
+    return patch && !patch->trim_loops.empty();
+}
+
 /// Parameter steps of a piece: u goes along the first axis and v along the second, except on polygons, where
-/// they are places in object space.
+/// they are places in object space, and on trimmed patches.
 ParameterSteps parameter_steps(const ShadingGrid& grid, size_t first) {
     ParameterSteps steps = mean_steps(grid, first);
     if (has_places_as_parameters(grid)) {
         const V2f of_face = steps_of_face(grid, first / static_cast<size_t>(grid.shape.vertex_count()));
         if (of_face.x == 0) return steps;
         steps.along_u.x = of_face.x, steps.along_v.y = of_face.y;
+    } else if (is_trimmed(grid)) {
+        return steps;
     }
     steps.along_u.y = steps.along_v.x = 0;
     return steps;
 }
 
 /// How far a parameter goes over both steps together, each made wider by a factor: du and dv of the language,
-/// with which textures are filtered.
+/// with which textures are filtered. Never negative, whichever way a grid's axes run.
 float way_of(float along_u, float wider_u, float along_v, float wider_v) {
-    if (along_v == 0) return along_u * wider_u;
-    if (along_u == 0) return along_v * wider_v;
     return std::abs(along_u) * wider_u + std::abs(along_v) * wider_v;
 }
 

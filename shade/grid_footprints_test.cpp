@@ -38,6 +38,18 @@ TEST(GridFootprints, AreTheMicropolygonWhereThatIsLargeEnough) {
     }
 }
 
+/// A polygon's first corner tells which way its grid runs, and nothing else may come of that.
+TEST(GridFootprints, AreAsLongWhereParametersFallAlongAxes) {
+    OneGrid one;
+    for (std::vector<float>* values : {&one.grid.u, &one.grid.v})
+        for (float& value : *values) value = 1 - value;
+    const vm::Footprint f = one.at(1, 1.2f);
+    for (size_t i = 0; i < one.grid.vertex_count(); ++i) {
+        EXPECT_NEAR(f.du[i], 0.25f, 1e-5f);
+        EXPECT_NEAR(f.dv[i], 0.5f, 1e-5f);
+    }
+}
+
 TEST(GridFootprints, ReachOverAPixelWhereMicropolygonsAreThin) {
     OneGrid one;
     const vm::Footprint f = one.at(1, 0.05f);

@@ -31,7 +31,8 @@ struct MapOptions {
     enum class Filter : uint8_t { Smooth, Bilinear, Nearest };
     enum class Wrap : uint8_t { OfPicture, Black, Periodic, Clamp, Mirror };
 
-    LaneNumber sblur, tblur;            ///< added to the filtered region, as a part of the picture
+    LaneNumber sblur, tblur;  ///< added to the filtered region, as a part of the picture, of its height where
+                              ///< it is an environment
     LaneNumber swidth = 1, twidth = 1;  ///< what the region is multiplied by
     LaneNumber fill;                    ///< of channels that the file does not have
     float without = 0;                  ///< what texture() gives where there is no picture

@@ -2,8 +2,11 @@
 
 #include <barrier>
 #include <bit>
+#include <cmath>
+#include <numbers>
 #include <thread>
 
+#include "shade/maps/make_maps.h"
 #include "shade/maps/map_files_harness.h"
 
 namespace trapeze {
@@ -301,6 +304,29 @@ TEST_F(EnvironmentTest, BlurBlends) {
     const V3f edge = seen(file, V3f(1, 1, 0), 0, options);
     EXPECT_NEAR(edge.x, 0.5f, 0.15f);
     EXPECT_NEAR(edge.y, 0.5f, 0.15f);
+}
+
+TEST_F(EnvironmentTest, BlurIsAPartOfThePicturesHeight) {
+    // White is from a quarter turn to three quarters.
+    const std::string picture = write("half.tif", ImageSpec(256, 128, 3, TypeDesc::FLOAT),
+                                      [](int x, int, int) { return x >= 64 && x < 192 ? 1.0f : 0.0f; });
+    const std::string file = path("half.env");
+    ASSERT_EQ(make_lat_long_environment(picture, file, {}), "");
+    MapOptions options;
+    for (const float blur : {1.0f, 2.0f}) {
+        options.sblur = options.tblur = blur;
+        for (const V3f& way : {V3f(-1, 0, 0), V3f(1, 0, 0), V3f(0, 1, 0), V3f(0.3f, 0.2f, 0.8f)})
+            EXPECT_NEAR(seen(file, way, 0, options).x, 0.5f, 0.02f) << way.x << " " << way.y;
+    }
+    options.sblur = options.tblur = 0.25f;
+    EXPECT_NEAR(seen(file, V3f(-1, 0, 0), 0, options).x, 1, 0.01f);
+    EXPECT_NEAR(seen(file, V3f(1, 0, 0), 0, options).x, 0, 0.01f);
+    // A border is as wide as the blur: a quarter of a half turn, of which a tenth of one is on the way to
+    // white.
+    const float angle = 0.1f * std::numbers::pi_v<float>;
+    options.filter = map_filter("box");
+    EXPECT_NEAR(seen(file, V3f(-std::sin(angle), std::cos(angle), 0), 0, options).x, 0.5f + 0.1f / 0.25f,
+                0.05f);
 }
 
 TEST_F(EnvironmentTest, NoDirectionAndNoMapAreBlack) {

@@ -1,5 +1,6 @@
 /// Lookups of colours: by place in a picture, and by direction.
 #include <algorithm>
+#include <numbers>
 
 #include "core/portable_math.h"
 #include "shade/maps/map_lanes.h"
@@ -172,6 +173,9 @@ void OpenImageIoCache::environment(const OpenMap& open, const EnvironmentLookup&
                   R /= length;
                   made.swidth = std::clamp(options.swidth.at(i), 0.0f, kMostRegion);
                   made.twidth = std::clamp(options.twidth.at(i), 0.0f, kMostRegion);
+                  // Blur is a part of the picture's height, OpenImageIO's is an angle.
+                  made.sblur = std::clamp(options.sblur.at(i), 0.0f, 1.0f) * std::numbers::pi_v<float>;
+                  made.tblur = std::clamp(options.tblur.at(i), 0.0f, 1.0f) * std::numbers::pi_v<float>;
                   dRdu = within(dRdu / length, kMostRegion), dRdv = within(dRdv / length, kMostRegion);
                   // OpenImageIO has longitude 0 in the middle.
                   if (!map.y_up)
