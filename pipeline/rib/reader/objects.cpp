@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "pipeline/rib/reader/scene_builder.h"
+#include "pipeline/rib/state/attribute_values.h"
 #include "pipeline/rib/state/scene_size.h"
 
 namespace trapeze::rib {
@@ -9,17 +10,6 @@ namespace {
 
 /// The most primitives of an object: instances in objects can double them with every line of a file.
 constexpr size_t kMostInObject = size_t{1} << 20;
-
-/// Exact, in the order as well: a list that was set again in another order counts as changed, which does no
-/// harm.
-bool same(const ParameterList& a, const ParameterList& b) {
-    if (a.values.size() != b.values.size()) return false;
-    for (size_t i = 0; i < a.values.size(); ++i) {
-        const Parameter &x = a.values[i], &y = b.values[i];
-        if (x.name != y.name || x.floats != y.floats || x.strings != y.strings) return false;
-    }
-    return true;
-}
 
 /// Shaders are shared between states and never changed; placing one makes a copy.
 using ShaderPointer = std::shared_ptr<const ShaderInstance>;
@@ -33,44 +23,71 @@ ShaderPointer placed_in(const M44f& camera_from_object, const ShaderPointer& sha
     return copy;
 }
 
-/// The instance's attributes, but for those that the definition changed between ObjectBegin and its
-/// primitive. Shaders of the definition are placed with the object. States are compared, since nothing
-/// remembers the requests: an attribute that the definition set to the value it had counts as not set.
-std::shared_ptr<AttributeState> instance_attributes(const AttributeState& instance,
-                                                    const AttributeState& at_begin,
-                                                    const AttributeState& at_primitive,
-                                                    const M44f& camera_from_object) {
-    auto result = std::make_shared<AttributeState>(instance);
-    const Attributes &old = at_begin.attributes, &now = at_primitive.attributes;
-    const auto take = [&](auto... members) {
-        ((now.*members == old.*members ? void() : void(result->attributes.*members = now.*members)), ...);
+/// What a definition has set as a whole: members of Attributes.
+void take_own(const Attributes& of_object, const OwnAttributes& own, Attributes& result) {
+    const auto take = [&](Own what, auto... members) {
+        if (own.has(what)) ((result.*members = of_object.*members), ...);
     };
-    take(&Attributes::color, &Attributes::opacity, &Attributes::texture_coordinates,
-         &Attributes::shading_rate, &Attributes::smooth_shading, &Attributes::matte, &Attributes::sides,
-         &Attributes::lights, &Attributes::name, &Attributes::visible_to_camera, &Attributes::cull_hidden,
-         &Attributes::dice, &Attributes::motion_factor, &Attributes::focus_factor, &Attributes::rays);
-    if (result->attributes.asset.empty()) result->attributes.asset = now.asset;
-    const auto take_shader = [&](auto... members) {
-        const auto placed = [&](const std::shared_ptr<const ShaderInstance>& shader) {
-            return placed_in(camera_from_object, shader);
-        };
-        ((now.*members == old.*members ? void() : void(result->attributes.*members = placed(now.*members))),
-         ...);
+    take(Own::Color, &Attributes::color);
+    take(Own::Opacity, &Attributes::opacity);
+    take(Own::TextureCoordinates, &Attributes::texture_coordinates);
+    take(Own::ShadingRate, &Attributes::shading_rate);
+    take(Own::ShadingInterpolation, &Attributes::smooth_shading);
+    take(Own::Matte, &Attributes::matte);
+    take(Own::Sides, &Attributes::sides);
+    take(Own::MotionFactor, &Attributes::motion_factor);
+    take(Own::FocusFactor, &Attributes::focus_factor);
+    take(Own::Rays, &Attributes::rays);
+    take(Own::Name, &Attributes::name);
+}
+
+/// Shaders of a definition are placed with the object, but not those that a state from outside has brought.
+void take_own_shaders(const AttributeState& of_object, const M44f& camera_from_object, Attributes& result) {
+    const OwnAttributes& own = of_object.own;
+    const auto take = [&](Own what, ShaderPointer Attributes::*member) {
+        if (!own.has(what)) return;
+        result.*member = placed_in(camera_from_object, of_object.attributes.*member);
     };
-    take_shader(&Attributes::surface, &Attributes::displacement, &Attributes::atmosphere,
-                &Attributes::interior, &Attributes::exterior);
-    for (const auto& [category, values] : now.user)
-        if (const auto before = old.user.find(category);
-            before == old.user.end() || !same(before->second, values))
-            for (const Parameter& value : values.values) result->attributes.user.change(category).set(value);
-    if (at_primitive.displacement_bound != at_begin.displacement_bound)
-        result->displacement_bound = at_primitive.displacement_bound;
-    if (at_primitive.orientation != Orientation::OfInstance) {
-        result->orientation = at_primitive.orientation;
-        result->orientation_reversed = at_primitive.orientation_reversed;
-    } else if (at_primitive.orientation_reversed) {
-        result->orientation_reversed = !instance.orientation_reversed;
+    take(Own::Surface, &Attributes::surface);
+    take(Own::Displacement, &Attributes::displacement);
+    take(Own::Atmosphere, &Attributes::atmosphere);
+    take(Own::Interior, &Attributes::interior);
+    take(Own::Exterior, &Attributes::exterior);
+}
+
+void take_own_orientation(const AttributeState& of_object, const AttributeState& instance,
+                          AttributeState& result) {
+    if (of_object.orientation != Orientation::OfInstance) {
+        result.orientation = of_object.orientation;
+        result.orientation_reversed = of_object.orientation_reversed;
+    } else if (of_object.orientation_reversed) {
+        result.orientation_reversed = !instance.orientation_reversed;
     }
+}
+
+/// The attributes of an object's primitive in an instance: those of the instance, but for what the definition
+/// has set between ObjectBegin and the primitive. The emitter is the caller's to place.
+std::shared_ptr<AttributeState> instance_attributes(const AttributeState& instance,
+                                                    const AttributeState& of_object,
+                                                    const M44f& camera_from_object) {
+    const OwnAttributes& own = of_object.own;
+    auto result = std::make_shared<AttributeState>(own.restored() ? of_object : instance);
+    result->own = instance.own;
+    if (instance.own.definition() != 0) result->own.add(own);  // of the object that this one is put in
+    Attributes& a = result->attributes;
+    if (a.asset.empty()) a.asset = of_object.attributes.asset;
+    for (const AttributeValue& value : own.values())
+        set_attribute_value(value.category, value.value, *result);
+    for (const auto& [light, on] : own.switches()) switch_light(light, on, a.lights);
+    take_own(of_object.attributes, own, a);
+    take_own_shaders(of_object, camera_from_object, a);
+    if (own.has(Own::DisplacementBound)) result->displacement_bound = of_object.displacement_bound;
+    if (own.has(Own::DetailRange)) {
+        const float size = result->detail.size;
+        result->detail = of_object.detail;
+        result->detail.size = size;
+    }
+    take_own_orientation(of_object, instance, *result);
     return result;
 }
 
@@ -88,13 +105,13 @@ class NumberedInstance {
 
 }  // namespace
 
-/// The definition has a space of its own, in which nothing has happened yet, and keeps the attributes to tell
-/// later which ones it changed.
+/// The definition has a space of its own, in which nothing has happened yet, and a record of what it sets.
 void SceneBuilder::begin_object(const std::string& handle) {
     if (object_) throw RequestError{"object definitions do not nest", {}};
     state_.open(BlockKind::Object, report_.at());
     AttributeState& attributes = state_.change_attributes();
     attributes.orientation = Orientation::OfInstance, attributes.orientation_reversed = false;
+    attributes.own = OwnAttributes(state_.blocks().back().id);
     object_ = std::make_shared<RetainedObject>();
     object_->attributes = state_.current().attributes;
     state_.scope().objects[handle] = object_;
@@ -135,9 +152,10 @@ void SceneBuilder::instance(const std::string& handle) {
         const bool own = primitive.attributes != object.attributes;
         if (own && merged_from != primitive.attributes.get()) {
             merged_from = primitive.attributes.get();
-            const auto made = instance_attributes(state_.attributes(), *object.attributes,
-                                                  *primitive.attributes, state_.camera_from_current());
-            if (const auto& emitter = primitive.attributes->emitter; emitter != object.attributes->emitter) {
+            const auto made =
+                instance_attributes(state_.attributes(), *primitive.attributes, state_.camera_from_current());
+            if (const auto& emitter = primitive.attributes->emitter;
+                primitive.attributes->own.has(Own::Emitter)) {
                 const auto placed = emitters.find(emitter ? emitter->light.get() : nullptr);
                 made->emitter = placed != emitters.end() ? placed->second : nullptr;
             }

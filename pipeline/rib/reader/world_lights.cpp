@@ -97,6 +97,9 @@ void SceneBuilder::add_light_surface(const LightInstance& light) {
     if (!surface || motion_.is_open() || !(state_.in_world() || object_)) return;
     state_.open(BlockKind::Attribute, report_.at());
     state_.current().transform.concat(M44d(surface->light_from_shape));
+    for (const Own what : {Own::Color, Own::Opacity, Own::Sides, Own::Surface, Own::Displacement,
+                           Own::Interior, Own::Exterior, Own::Emitter, Own::DisplacementBound, Own::Rays})
+        state_.change_attributes(what);
     AttributeState& state = state_.change_attributes();
     state.orientation = Orientation::Outside;
     state.orientation_reversed = false;

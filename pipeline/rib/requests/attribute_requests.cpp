@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/rib/requests/ray_attributes.h"
 #include "pipeline/rib/requests/request_table.h"
 #include "pipeline/rib/requests/ri_values.h"
+#include "pipeline/rib/state/attribute_values.h"
 #include "pipeline/rib/state/bases.h"
 #include "pipeline/rib/state/recognised_names.h"
 
@@ -34,20 +34,21 @@ V3f color_of(StateContext& r, ArgumentCursor& c, const char* what) {
 /// Opacity color: how much of what lies behind is covered, by channel.
 void opacity(StateContext& r, ArgumentCursor& c) {
     const V3f o = color_of(r, c, "the opacity");
-    changeable_attributes(r).opacity = o;
+    changeable_attributes(r, Own::Opacity).opacity = o;
 }
 
 /// TextureCoordinates s1 t1 s2 t2 s3 t3 s4 t4: s and t at the corners (0,0), (1,0), (0,1), (1,1) of u and v.
 void texture_coordinates(StateContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(8, "the coordinates");
-    std::copy(v.begin(), v.end(), changeable_attributes(r).texture_coordinates.begin());
+    std::copy(v.begin(), v.end(),
+              changeable_attributes(r, Own::TextureCoordinates).texture_coordinates.begin());
 }
 
 /// ShadingRate area: so many pixels a micropolygon may cover.
 void shading_rate(StateContext& r, ArgumentCursor& c) {
     const float rate = c.number("the rate");
     if (!(rate > 0)) throw RequestError{"the rate must be positive", {}};
-    changeable_attributes(r).shading_rate = rate;
+    changeable_attributes(r, Own::ShadingRate).shading_rate = rate;
 }
 
 /// ShadingInterpolation "constant" or "smooth": of a grid's colours, over each micropolygon.
@@ -55,20 +56,20 @@ void shading_interpolation(StateContext& r, ArgumentCursor& c) {
     const std::string type = c.string("the type");
     if (type != "constant" && type != "smooth")
         throw RequestError{in_quotes(type) + " is neither constant nor smooth", {}};
-    changeable_attributes(r).smooth_shading = type == "smooth";
+    changeable_attributes(r, Own::ShadingInterpolation).smooth_shading = type == "smooth";
 }
 
 /// Matte flag: what hides others but is not seen itself. 1 leaves a hole in colour and alpha, 2 in the colour
 /// alone.
 void matte(StateContext& r, ArgumentCursor& c) {
-    changeable_attributes(r).matte = c.integer("the flag", 0, 2);
+    changeable_attributes(r, Own::Matte).matte = c.integer("the flag", 0, 2);
 }
 
 /// Sides 1 or 2: of 1 only those that face the eye are seen.
 void sides(StateContext& r, ArgumentCursor& c) {
     const float n = c.number("1 or 2");
     if (n != 1 && n != 2) throw RequestError{"must be 1 or 2", {}};
-    changeable_attributes(r).sides = static_cast<int>(n);
+    changeable_attributes(r, Own::Sides).sides = static_cast<int>(n);
 }
 
 /// Orientation. "lh" and "rh" are kept as "outside" where they name the handedness of the current space and
@@ -113,19 +114,6 @@ void basis(StateContext& r, ArgumentCursor& c) {
     state.u_basis = u.matrix, state.v_basis = v.matrix, state.u_step = u.step, state.v_step = v.step;
 }
 
-/// Older files say in words what newer ones say by numbers.
-bool is_on(const std::string& text) {
-    return text != "0" && text != "off" && text != "no" && text != "false" && text != "invisible" &&
-           text != "transparent";
-}
-
-/// Attribute "dice": see Attributes::Dice.
-void set_dice(Attributes::Dice& dice, const std::string& name, float value) {
-    if (name == "binary") dice.binary = value != 0;
-    if (name == "rasterorient") dice.raster_oriented = value != 0;
-    if (name == "minlength") dice.min_length = std::max(value, 0.0f);
-}
-
 /// Attribute "identifier" "name". The asset is what the outermost block with a name has named.
 void name_primitives(const GraphicsStateStack& stack, const std::string& name, AttributeState& state) {
     state.attributes.name = name;
@@ -134,46 +122,38 @@ void name_primitives(const GraphicsStateStack& stack, const std::string& name, A
     state.attributes.asset = name, state.asset_block = block;
 }
 
-/// All values are kept for shaders (RISpec: attribute()); those that mean something here are taken too. Each
-/// value is counted once: as not needed, as without effect, or not at all where something looks at it.
+/// Attribute "trimcurve" "sense": the side of the curves on which a surface is cut away.
+void set_trim_sense(OptionContext& r, const std::string& sense, AttributeState& state) {
+    if (sense != "inside" && sense != "outside")
+        r.report.error("the sense " + in_quotes(sense) + " is neither inside nor outside");
+    state.trim_outside = sense == "outside";
+}
+
+/// Each value is counted once: as not needed, as without effect, or not at all where something looks at it.
+void count_value(OptionContext& r, const std::string& category, const Parameter& value) {
+    if (const UnneededAttribute* const unneeded = unneeded_attribute(category, value.name))
+        r.report.count_not_needed(' ' + in_quotes(category) + ' ' + in_quotes(value.name) + ": " +
+                                  std::string(unneeded->why));
+    else if (!recognises_attribute(category, value.name))
+        r.report.count_without_effect(' ' + in_quotes(category) + ' ' + in_quotes(value.name));
+}
+
+/// All values are kept for shaders (RISpec: attribute()); those that mean something here are taken too.
 void attribute(OptionContext& r, ArgumentCursor& c) {
     const std::string category = c.string("the category");
     const ParameterList values = r.parameters(c, Undeclared::Guess);
-    AttributeState& state = r.state.change_attributes();
     for (const Parameter& value : values.values) {
-        state.attributes.user.change(category).set(value);
-        const bool is_executed = category == "Ri" && execute_ri_value(r, value);
-        const UnneededAttribute* const unneeded = unneeded_attribute(category, value.name);
-        if (unneeded)
-            r.report.count_not_needed(' ' + in_quotes(category) + ' ' + in_quotes(value.name) + ": " +
-                                      std::string(unneeded->why));
-        else if (!is_executed && !recognises_attribute(category, value.name))
-            r.report.count_without_effect(' ' + in_quotes(category) + ' ' + in_quotes(value.name));
-        const float number = value.floats.empty() ? 0 : value.floats[0];
+        AttributeState& state = r.state.change_attributes();
+        set_attribute_value(category, value, state);
+        if (r.state.in_object()) state.own.set(category, value);
         const std::string text = value.strings.empty() ? "" : value.strings[0];
-        if (category == "displacementbound" && value.name == "sphere")
-            state.displacement_bound.sphere = std::abs(number);
-        if (category == "bound" && value.name == "displacement")  // before RISpec 3.1
-            state.displacement_bound = {std::abs(number), "object"};
-        if (category == "displacementbound" && value.name == "coordinatesystem")
-            state.displacement_bound.coordinate_system = text;
-        if (category == "trimcurve" && value.name == "sense") {
-            if (text != "inside" && text != "outside")
-                r.report.error("the sense " + in_quotes(text) + " is neither inside nor outside");
-            state.trim_outside = text == "outside";
-        }
-        if (category == "identifier" && value.name == "name") name_primitives(r.state, text, state);
-        if (category == "visibility" && value.name == "camera")
-            state.attributes.visible_to_camera = value.is_string() ? is_on(text) : number != 0;
-        // BMRT's: a bit for the camera, one for reflections, one for shadows.
-        if (category == "render" && value.name == "visibility" && !value.floats.empty())
-            state.attributes.visible_to_camera = (static_cast<int>(std::clamp(number, 0.0f, 7.0f)) & 1) != 0;
-        set_ray_attribute(category, value, state.attributes.rays);
-        if (category == "cull" && value.name == "hidden") state.attributes.cull_hidden = number != 0;
-        if (category == "dice") set_dice(state.attributes.dice, value.name, number);
-        // The later RenderMan's, of a side in pixels.
-        if (category == "dice" && value.name == "micropolygonlength" && number > 0)
-            state.attributes.shading_rate = number * number;
+        if (category == "trimcurve" && value.name == "sense") set_trim_sense(r, text, state);
+        if (category == "identifier" && value.name == "name")
+            name_primitives(r.state, text, r.state.change_attributes(Own::Name));
+        if (category == "dice" && value.name == "micropolygonlength" && !value.floats.empty() &&
+            value.floats[0] > 0)
+            r.state.change_attributes(Own::ShadingRate);
+        if (category != "Ri" || !execute_ri_value(r, value)) count_value(r, category, value);
     }
 }
 
@@ -183,7 +163,7 @@ constexpr RequestRow kAttributeRequests[] = {
     {"Color",
      [](StateContext& r, ArgumentCursor& c) {
          const V3f v = color_of(r, c, "the colour");
-         changeable_attributes(r).color = v;
+         changeable_attributes(r, Own::Color).color = v;
      }},
     {"Opacity", opacity},
     {"TextureCoordinates", texture_coordinates},

@@ -41,7 +41,7 @@ void detail_range(StateContext& r, ArgumentCursor& c) {
     const auto limit = [](float size) {
         return size >= kInfinity ? std::numeric_limits<float>::infinity() : size;
     };
-    Detail& range = r.state.change_attributes().detail;
+    Detail& range = r.state.change_attributes(Own::DetailRange).detail;
     range.least = v[0], range.full_from = v[1], range.full_to = limit(v[2]), range.most = limit(v[3]);
 }
 
@@ -52,8 +52,9 @@ void geometric_approximation(StateContext& r, ArgumentCursor& c) {
     const float value = c.number("the value");
     if (type == "motionfactor" || type == "focusfactor") {
         if (value < 0) throw RequestError{"the factor must not be negative", {}};
-        Attributes& a = changeable_attributes(r);
-        (type == "motionfactor" ? a.motion_factor : a.focus_factor) = value;
+        const bool of_motion = type == "motionfactor";
+        Attributes& a = changeable_attributes(r, of_motion ? Own::MotionFactor : Own::FocusFactor);
+        (of_motion ? a.motion_factor : a.focus_factor) = value;
     } else if (type == "flatness") {  // which ShadingRate makes fine enough
         r.report.count_without_effect(" \"flatness\"");
     } else {

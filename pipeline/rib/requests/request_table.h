@@ -18,9 +18,9 @@ struct RequestRow {
 /// The options, for a request that sets some: a warning in a world, a RequestError in archives that it reads.
 Options& changeable_options(OptionContext& context);
 
-/// The attributes that primitives keep, for a request that sets some.
-inline Attributes& changeable_attributes(StateContext& context) {
-    return context.state.change_attributes().attributes;
+/// The attributes that primitives keep, for a request that sets `what`.
+inline Attributes& changeable_attributes(StateContext& context, Own what) {
+    return context.state.change_attributes(what).attributes;
 }
 
 /// One table for each file of handlers; request_table.cpp puts them together. A new request is a handler and

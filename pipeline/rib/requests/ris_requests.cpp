@@ -59,7 +59,8 @@ void bxdf(LightContext& r, ArgumentCursor& c) {
     const RisParameters parameters = RisParameters::read(c);
     RisNetwork& network = r.state.scope().ris;
     const RisLook look = network.bxdfs[handle] = known_look(network, surface.name, parameters);
-    Attributes& a = changeable_attributes(r);
+    r.state.change_attributes(Own::Color);
+    Attributes& a = changeable_attributes(r, Own::Surface);
     a.color = look.color.value_or(look.is_constant ? V3f(1, 1, 1) : V3f(0.5f, 0.5f, 0.5f));
     show(look, surface);
     a.surface = std::make_shared<const ShaderInstance>(std::move(surface));
@@ -123,7 +124,7 @@ void add_ris_light(LightContext& r, const std::string& handle, const ShaderInsta
         emitter->light = mesh_light(handle, shader, parameters, samples);
         emitter->is_of_ris = true;
         r.add_world_light(emitter->light);
-        r.state.change_attributes().emitter = std::move(emitter);
+        r.state.change_attributes(Own::Emitter).emitter = std::move(emitter);
         return;
     }
     auto light = ris_light(handle, shader, parameters, samples);

@@ -4,12 +4,23 @@
 #include "pipeline/rib/requests/request_table.h"
 #include "pipeline/rib/requests/ris_light_request.h"
 #include "pipeline/rib/ris/ris_lights.h"
+#include "pipeline/rib/state/attribute_values.h"
 
 namespace trapeze::rib {
 namespace {
 
 /// Where Attributes keeps the shader of a kind.
 using ShaderMember = std::shared_ptr<const ShaderInstance> Attributes::*;
+
+/// The shader of a kind, for a request that sets it or adds to it.
+std::shared_ptr<const ShaderInstance>& changeable_shader(LightContext& r, ShaderMember where) {
+    Own what = Own::Exterior;
+    if (where == &Attributes::surface) what = Own::Surface;
+    if (where == &Attributes::displacement) what = Own::Displacement;
+    if (where == &Attributes::atmosphere) what = Own::Atmosphere;
+    if (where == &Attributes::interior) what = Own::Interior;
+    return changeable_attributes(r, what).*where;
+}
 
 /// Surface, Displacement and the like: name parameters. Replaces the shader of its kind, with all of its
 /// layers.
@@ -20,7 +31,7 @@ void shader(LightContext& r, ArgumentCursor& c, const char* kind) {
     // Exporters write "null" for what does nothing; the surface of that name is a shader.
     const bool is_none =
         instance->name.empty() || (instance->name == "null" && kWhere != &Attributes::surface);
-    changeable_attributes(r).*kWhere = is_none ? nullptr : std::move(instance);
+    changeable_shader(r, kWhere) = is_none ? nullptr : std::move(instance);
 }
 
 /// Where layers of the kind stand; `kind` is the word itself, for the summary.
@@ -43,7 +54,7 @@ void shader_layer(LightContext& r, ArgumentCursor& c) {
     auto instance = std::make_shared<ShaderInstance>(r.shader(c, kind.c_str()));
     instance->layer = c.string("the layer's name");
     instance->parameters = r.shader_parameters(c);
-    std::shared_ptr<const ShaderInstance>& current = changeable_attributes(r).*where;
+    std::shared_ptr<const ShaderInstance>& current = changeable_shader(r, where);
     // A shader that is no layer is replaced by the first.
     std::vector<std::shared_ptr<const ShaderInstance>> layers;
     if (current && !current->layer.empty()) {
@@ -70,7 +81,7 @@ void connect_shader_layers(LightContext& r, ArgumentCursor& c) {
     connection.from_variable = c.string("its variable");
     connection.to_layer = c.string("the later layer");
     connection.to_variable = c.string("its variable");
-    std::shared_ptr<const ShaderInstance>& current = changeable_attributes(r).*where;
+    std::shared_ptr<const ShaderInstance>& current = changeable_shader(r, where);
     if (!current || current->layer.empty()) throw RequestError{"there are no layers to connect", {}};
     // Instances are shared with states that were saved and primitives that were made: they are copied, not
     // changed.
@@ -131,7 +142,7 @@ void area_light_source(LightContext& r, ArgumentCursor& c) {
     }
     auto light = light_of(r, c);
     if (light->shader.name.empty() || light->shader.name == "null") {  // ends an area light
-        r.state.change_attributes().emitter = nullptr;
+        r.state.change_attributes(Own::Emitter).emitter = nullptr;
         return;
     }
     light->shape.emplace();
@@ -141,21 +152,19 @@ void area_light_source(LightContext& r, ArgumentCursor& c) {
     emitter->light = light;
     r.add_light(std::move(light));
     r.state.scope().emitters.push_back(emitter);
-    r.state.change_attributes().emitter = std::move(emitter);
+    r.state.change_attributes(Own::Emitter).emitter = std::move(emitter);
 }
 
-/// A light that was once named is no stray any more, on or off (SceneBuilder::add_strays). The order of the
-/// list is that in which lights were switched on, and of their sums.
+/// A light that was once named is no stray any more, on or off (SceneBuilder::add_strays).
 void illuminate(LightContext& r, ArgumentCursor& c) {
     const std::string handle = c.handle("the light's handle");
     const bool on = c.done() || c.number("0 or 1") != 0;
     const auto light = r.light(handle);
     if (!light) throw RequestError{"no light " + in_quotes(handle), {}};
     std::erase_if(r.state.scope().emitters, [&](const auto& emitter) { return emitter->light == light; });
-    auto& lights = changeable_attributes(r).lights;
-    const auto place = std::find(lights.begin(), lights.end(), light);
-    if (on && place == lights.end()) lights.push_back(light);
-    if (!on && place != lights.end()) lights.erase(place);
+    AttributeState& state = r.state.change_attributes();
+    switch_light(light, on, state.attributes.lights);
+    if (r.state.in_object()) state.own.switch_light(light, on);
 }
 
 /// Motion blocks hold all of these: shaders do not change while the shutter is open.

@@ -13,6 +13,7 @@
 #include "pipeline/rib/ris/ris_network.h"
 #include "pipeline/rib/state/block_kind.h"
 #include "pipeline/rib/state/moving_transform.h"
+#include "pipeline/rib/state/own_attributes.h"
 #include "pipeline/rib/syntax/arguments.h"
 
 namespace trapeze::rib {
@@ -62,6 +63,7 @@ struct AttributeState {
     bool trim_outside = false;
     std::shared_ptr<Emitter> emitter;  ///< null: none
     uint64_t asset_block = 0;          ///< the block that has named Attributes::asset
+    OwnAttributes own;                 ///< kept while an object is defined
 };
 
 using NamedSpaces = std::map<std::string, MovingTransform>;  ///< camera_from_space
@@ -93,7 +95,7 @@ struct ObjectPrimitive {
     std::vector<float> times;
     MovingTransform object_from_shape;
     std::shared_ptr<const AttributeState>
-        attributes;  ///< what changed since ObjectBegin outdoes the instance's
+        attributes;  ///< what ObjectBegin's record has (AttributeState::own) outdoes the instance's
     SourceLocation at;
     /// `shapes` at the keys of the shutter, made by the first instance for all.
     std::vector<std::shared_ptr<const Shape>> keys;

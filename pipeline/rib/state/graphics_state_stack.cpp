@@ -61,6 +61,12 @@ AttributeState& GraphicsStateStack::change_attributes() {
     return const_cast<AttributeState&>(*state_.attributes);
 }
 
+AttributeState& GraphicsStateStack::change_attributes(Own what) {
+    AttributeState& state = change_attributes();
+    if (in_object()) state.own.set(what);
+    return state;
+}
+
 /// States are shared and not copied: a block saves three pointers, but for frames and worlds.
 void GraphicsStateStack::open(BlockKind kind, SourceLocation at) {
     if (in_motion()) throw RequestError{"inside a motion block", {}};
@@ -87,12 +93,17 @@ void GraphicsStateStack::close() {
 }
 
 /// A saved state outlives the block that it was saved in. Scoped names of coordinate systems stay what they
-/// are.
+/// are. In an object's definition all that comes from outside of it is the object's own.
 bool GraphicsStateStack::restore(const std::string& name, bool attributes, bool transform) {
     if (in_motion()) throw RequestError{"inside a motion block", {}};
     const GraphicsState* const saved = saved_states_.find(name);
     if (!saved) return false;
-    if (attributes) state_.attributes = saved->attributes;
+    if (attributes) {
+        const uint64_t definition = state_.attributes->own.definition();
+        state_.attributes = saved->attributes;
+        if (in_object() && state_.attributes->own.definition() != definition)
+            change_attributes().own = OwnAttributes(definition, saved->attributes);
+    }
     if (transform) state_.transform = saved->transform;
     return true;
 }

@@ -25,6 +25,8 @@ class GraphicsStateStack {
     const AttributeState& attributes() const { return *state_.attributes; }
     /// Copies the attributes first where primitives or blocks share them.
     AttributeState& change_attributes();
+    /// The same, for what an object's definition then has of its own.
+    AttributeState& change_attributes(Own what);
 
     /// What frames and worlds restore; a change holds until the innermost of them ends.
     Scope& scope() { return scope_; }

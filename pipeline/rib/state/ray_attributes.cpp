@@ -1,4 +1,4 @@
-#include "pipeline/rib/requests/ray_attributes.h"
+#include "pipeline/rib/state/ray_attributes.h"
 
 #include <algorithm>
 #include <cmath>

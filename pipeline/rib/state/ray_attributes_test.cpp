@@ -1,5 +1,5 @@
 /// Every spelling of what Attribute says of rays.
-#include "pipeline/rib/requests/ray_attributes.h"
+#include "pipeline/rib/state/ray_attributes.h"
 
 #include "pipeline/rib/reading_harness.h"
 

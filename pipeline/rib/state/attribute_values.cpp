@@ -1,0 +1,67 @@
+#include "pipeline/rib/state/attribute_values.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/rib/state/ray_attributes.h"
+
+namespace trapeze::rib {
+namespace {
+
+/// Older files say in words what newer ones say by numbers.
+bool is_on(const std::string& text) {
+    return text != "0" && text != "off" && text != "no" && text != "false" && text != "invisible" &&
+           text != "transparent";
+}
+
+/// Attribute "dice": see Attributes::Dice.
+void set_dice(Attributes::Dice& dice, const std::string& name, float value) {
+    if (name == "binary") dice.binary = value != 0;
+    if (name == "rasterorient") dice.raster_oriented = value != 0;
+    if (name == "minlength") dice.min_length = std::max(value, 0.0f);
+}
+
+/// Lists are shared between states until one of them changes: what is there already changes none.
+void keep(const std::string& category, const Parameter& value, UserValues& user) {
+    if (const auto list = user.find(category); list != user.end())
+        if (const Parameter* const old = list->second.find(value.name); old && old->floats == value.floats &&
+                                                                        old->strings == value.strings &&
+                                                                        old->declaration == value.declaration)
+            return;
+    user.change(category).set(value);
+}
+
+}  // namespace
+
+void set_attribute_value(const std::string& category, const Parameter& value, AttributeState& state) {
+    Attributes& a = state.attributes;
+    keep(category, value, a.user);
+    const float number = value.floats.empty() ? 0 : value.floats[0];
+    const std::string text = value.strings.empty() ? "" : value.strings[0];
+    if (category == "displacementbound" && value.name == "sphere")
+        state.displacement_bound.sphere = std::abs(number);
+    if (category == "bound" && value.name == "displacement")  // before RISpec 3.1
+        state.displacement_bound = {std::abs(number), "object"};
+    if (category == "displacementbound" && value.name == "coordinatesystem")
+        state.displacement_bound.coordinate_system = text;
+    if (category == "visibility" && value.name == "camera")
+        a.visible_to_camera = value.is_string() ? is_on(text) : number != 0;
+    // BMRT's: a bit for the camera, one for reflections, one for shadows.
+    if (category == "render" && value.name == "visibility" && !value.floats.empty())
+        a.visible_to_camera = (static_cast<int>(std::clamp(number, 0.0f, 7.0f)) & 1) != 0;
+    set_ray_attribute(category, value, a.rays);
+    if (category == "cull" && value.name == "hidden") a.cull_hidden = number != 0;
+    if (category == "dice") set_dice(a.dice, value.name, number);
+    // The later RenderMan's, of a side in pixels.
+    if (category == "dice" && value.name == "micropolygonlength" && number > 0)
+        a.shading_rate = number * number;
+}
+
+void switch_light(const std::shared_ptr<const LightInstance>& light, bool on,
+                  std::vector<std::shared_ptr<const LightInstance>>& lights) {
+    const auto place = std::find(lights.begin(), lights.end(), light);
+    if (on && place == lights.end()) lights.push_back(light);
+    if (!on && place != lights.end()) lights.erase(place);
+}
+
+}  // namespace trapeze::rib
