@@ -71,6 +71,9 @@ struct ShaderInstance {
     ParameterList parameters;
     M44f camera_from_shader;  ///< at shutter open
     SourceLocation location;
+    /// Coordinate systems that it sees before Scene::camera_from_named, at shutter open: those of its part of
+    /// the world. Null: none.
+    std::shared_ptr<const std::map<std::string, M44f>> camera_from_scoped;
 
     /// ShaderLayer: this is the last of several layers, which run in order; the earlier ones have none of
     /// their own. Connections may name any of them.

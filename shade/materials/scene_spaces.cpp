@@ -36,6 +36,10 @@ std::optional<M44d> SceneSpaces::camera_from(std::string_view space) const {
         return primitive_ && !primitive_->camera_from_object.empty()
                    ? M44d(primitive_->camera_from_object.front())
                    : M44d(scene_.camera_from_world);
+    if (shader_ && shader_->camera_from_scoped)
+        if (const auto scoped = shader_->camera_from_scoped->find(std::string(space));
+            scoped != shader_->camera_from_scoped->end())
+            return M44d(scoped->second);
     if (const auto named = scene_.camera_from_named.find(std::string(space));
         named != scene_.camera_from_named.end())
         return M44d(named->second);

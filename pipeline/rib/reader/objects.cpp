@@ -116,6 +116,12 @@ void SceneBuilder::begin_object(const std::string& handle) {
     object_->attributes = state_.current().attributes;
     state_.scope().objects[handle] = object_;
     state_.current().transform = MovingTransform();
+    state_.current().scoped_spaces = nullptr;
+}
+
+void SceneBuilder::end_object() {
+    if (object_) object_->named_spaces = state_.object_spaces();
+    object_ = nullptr;
 }
 
 /// Objects in objects are made flat: an instance within a definition copies its primitives. Consecutive
@@ -138,9 +144,11 @@ void SceneBuilder::instance(const std::string& handle) {
     }
     if (object_ && object_->primitives.size() + object.primitives.size() > kMostInObject)
         throw RequestError{"the object has more than " + std::to_string(kMostInObject) + " primitives", {}};
-    // The attributes that were merged last, and with what result.
+    // The attributes and spaces that were merged last, and with what result.
     const AttributeState* merged_from = nullptr;
     std::shared_ptr<const AttributeState> merged;
+    const NamedSpaces* placed_from = nullptr;
+    SpacesPointer spaces = placed_spaces(object, nullptr);
     const int first_solid = place_solids(object.solids);
     // Surfaces of an object that has no solids of its own bound the solid around the instance.
     const bool some_bare = std::any_of(object.primitives.begin(), object.primitives.end(),
@@ -161,22 +169,27 @@ void SceneBuilder::instance(const std::string& handle) {
             }
             merged = made;
         }
-        place_instance(primitive, own ? merged : state_.current().attributes, solid);
+        if (placed_from != primitive.spaces.get()) {
+            placed_from = primitive.spaces.get();
+            spaces = placed_spaces(object, primitive.spaces);
+        }
+        place_instance(primitive,
+                       {state_.current().transform, own ? merged : state_.current().attributes, spaces},
+                       solid);
     }
 }
 
-/// A primitive of an object with the current transformation: into the scene, or into the object that is being
-/// defined. Poses at the keys of the shutter are made by the first instance and shared by all, as long as the
-/// shutter stays the same.
-void SceneBuilder::place_instance(ObjectPrimitive& primitive,
-                                  const std::shared_ptr<const AttributeState>& attributes, int solid) {
-    MovingTransform transform = state_.current().transform;
-    transform.concat(primitive.object_from_shape);
+/// A primitive of an object, in a state whose transformation is the instance's: into the scene, or into the
+/// object that is being defined. Poses at the keys of the shutter are made by the first instance and shared
+/// by all, as long as the shutter stays the same.
+void SceneBuilder::place_instance(ObjectPrimitive& primitive, GraphicsState state, int solid) {
+    state.transform.concat(primitive.object_from_shape);
     if (object_) {
         if (keeps_geometry() && !has_room(sizeof(ObjectPrimitive))) return;
         ObjectPrimitive& copy = object_->primitives.emplace_back(primitive);
-        copy.object_from_shape = std::move(transform);
-        copy.attributes = attributes;
+        copy.object_from_shape = std::move(state.transform);
+        copy.attributes = std::move(state.attributes);
+        copy.spaces = std::move(state.scoped_spaces);
         copy.at = report_.at();
         copy.solid = solid;
         return;
@@ -188,8 +201,8 @@ void SceneBuilder::place_instance(ObjectPrimitive& primitive,
         if (primitive.keys.size() > 1 && !has_room(primitive.keys.size() * bytes_of(*primitive.keys.front())))
             return;
     }
-    place_emitter(*attributes, *primitive.keys.front(), M44f(transform.at(open)));
-    emit(primitive.request, primitive.keys, transform, attributes, report_.at(), solid);
+    place_emitter(*state.attributes, *primitive.keys.front(), M44f(state.transform.at(open)));
+    emit(primitive.request, primitive.keys, state, report_.at(), solid);
 }
 
 }  // namespace trapeze::rib

@@ -69,6 +69,7 @@ void SceneBuilder::begin_world() {
     report_turned_away();
     scene_ = Scene();
     solids_ = {};
+    in_spaces_.clear();
     instanced_primitives_ = 0, instances_ = 0;
 }
 
@@ -108,6 +109,7 @@ void SceneBuilder::deliver_world() {
     scene_.options = std::move(options);
     scene_.clipping_planes = scope.clipping_planes;
     resolved_ = {};
+    bind_spaces();
     light_world();
     if (wanted) on_world_(std::move(scene_));
     scene_ = Scene();
@@ -115,14 +117,15 @@ void SceneBuilder::deliver_world() {
 }
 
 /// The bound in camera space: its own length, times the most that its space stretches any length at any key.
-float SceneBuilder::displacement_length(const AttributeState& state,
+float SceneBuilder::displacement_length(const GraphicsState& state,
                                         const std::vector<M44f>& camera_from_object) {
-    const DisplacementBound& bound = state.displacement_bound;
+    const DisplacementBound& bound = state.attributes->displacement_bound;
     if (bound.sphere == 0 || bound.coordinate_system == "camera") return bound.sphere;
     float stretch = 0;
     for (const M44f& key : camera_from_object) stretch = std::max(stretch, largest_stretch(key));
-    const auto& shader = state.attributes.displacement;
-    if (const MovingTransform* const named = state_.named_space(bound.coordinate_system))
+    const auto& shader = state.attributes->attributes.displacement;
+    if (const MovingTransform* const named =
+            state_.named_space(bound.coordinate_system, state.scoped_spaces.get()))
         stretch = largest_stretch(M44f(named->at(state_.options().shutter_open)));
     else if (bound.coordinate_system == "shader" && shader)
         stretch = largest_stretch(shader->camera_from_shader);
@@ -138,11 +141,11 @@ float SceneBuilder::displacement_length(const AttributeState& state,
 /// `mirrored`: the determinant of their space is negative. A mirrored space, orientation "inside" and
 /// ReverseOrientation turn normals over once each, so that two of them cancel.
 std::shared_ptr<const Attributes> SceneBuilder::resolved_attributes(
-    const std::shared_ptr<const AttributeState>& state, const std::vector<M44f>& camera_from_object,
-    bool mirrored) {
+    const GraphicsState& in, const std::vector<M44f>& camera_from_object, bool mirrored) {
+    const std::shared_ptr<const AttributeState>& state = in.attributes;
     const bool inside = state->orientation == Orientation::Inside;
     const bool reverse = (mirrored != inside) != state->orientation_reversed;
-    const float bound = displacement_length(*state, camera_from_object);
+    const float bound = displacement_length(in, camera_from_object);
     if (resolved_.state == state && resolved_.attributes->reverse_orientation == reverse &&
         resolved_.attributes->displacement_bound == bound)
         return resolved_.attributes;
@@ -176,8 +179,8 @@ bool SceneBuilder::has_room(uint64_t bytes) {
 /// The last step of a primitive: its keys of transformation, its attributes, and the scene. `solid` is the
 /// scene's that it bounds, or -1.
 void SceneBuilder::emit(const std::string& request, std::vector<ShapePointer> shape_keys,
-                        const MovingTransform& transform, const std::shared_ptr<const AttributeState>& state,
-                        SourceLocation at, int solid) {
+                        const GraphicsState& state, SourceLocation at, int solid) {
+    const MovingTransform& transform = state.transform;
     const float open = state_.options().shutter_open, close = state_.options().shutter_close;
     Primitive primitive;
     primitive.location = at;
@@ -201,15 +204,15 @@ void SceneBuilder::emit(const std::string& request, std::vector<ShapePointer> sh
     ++primitive_counts_.of(report_.summary().primitives, request);
     report_.summary().points += point_count(primitive.shape());
     if (primitive.key_count() > 1) ++report_.summary().moving_primitives;
-    if (!keeps_geometry() || state->detail.seen().are_none()) return;
+    if (!keeps_geometry() || state.attributes->detail.seen().are_none()) return;
     // Shared attributes take memory once.
     const std::shared_ptr<const Attributes> last = resolved_.attributes;
     // dPdu x dPdv in camera space is the transformed outward normal times the sign of the determinant.
     primitive.attributes = resolved_attributes(state, spaces, determinant < 0);
-    if (state->emitter) primitive.emitter = state->emitter->light;
+    if (const auto& emitter = state.attributes->emitter) primitive.emitter = emitter->light;
     uint64_t bytes = bytes_of(primitive);
     if (primitive.attributes != last) bytes += bytes_of(*primitive.attributes);
-    if (!has_room(bytes)) return;
+    if (!has_room(bytes) || !remember_spaces(state.scoped_spaces)) return;
     scene_.primitives.push_back(std::move(primitive));
 }
 
@@ -262,8 +265,7 @@ void SceneBuilder::add_shape(const std::string& request, Shape&& shape, uint64_t
     else if (object_)
         add_to_object(request, only(std::move(shared)), {0.0f}, report_.at());
     else
-        emit(request, only(std::move(shared)), state_.current().transform, state_.current().attributes,
-             report_.at(), solid_of_surface(solids_));
+        emit(request, only(std::move(shared)), state_.current(), report_.at(), solid_of_surface(solids_));
 }
 
 /// Poses are made at the even keys of the shutter, which later stages want; an object keeps those given,
@@ -275,8 +277,7 @@ void SceneBuilder::add_moving_shape(MovingShape moving) {
     const auto keys = shapes_at_keys(moving.shapes, moving.times, state_.options().shutter_open,
                                      state_.options().shutter_close);
     if (keeps_geometry() && !has_room(keys.size() * bytes_of(*keys.front()))) return;
-    emit(moving.request, keys, state_.current().transform, state_.current().attributes, moving.at,
-         solid_of_surface(solids_));
+    emit(moving.request, keys, state_.current(), moving.at, solid_of_surface(solids_));
 }
 
 /// The transformation is the object's own from where its definition began.
@@ -291,7 +292,8 @@ void SceneBuilder::add_to_object(std::string request, std::vector<ShapePointer> 
                                    {},
                                    0,
                                    0,
-                                   solid_of_surface(object_->solids)});
+                                   solid_of_surface(object_->solids),
+                                   state_.current().scoped_spaces});
 }
 
 }  // namespace trapeze::rib

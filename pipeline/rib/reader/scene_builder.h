@@ -52,7 +52,7 @@ class SceneBuilder {
 
     // --- objects (RISpec 5.9) and solids (5.7) ---
     void begin_object(const std::string& handle);
-    void end_object() { object_ = nullptr; }
+    void end_object();
     void instance(const std::string& handle);
     void begin_solid(Solid::Operation operation);
     void end_solid();
@@ -87,8 +87,7 @@ class SceneBuilder {
     SolidList& solids_here() { return object_ ? object_->solids : solids_; }
     int solid_of_surface(SolidList& list);
     int place_solids(const SolidList& object);
-    void place_instance(ObjectPrimitive& primitive, const std::shared_ptr<const AttributeState>& attributes,
-                        int solid);
+    void place_instance(ObjectPrimitive& primitive, GraphicsState state, int solid);
 
     /// By lights of an object: the emitters that stand for them in an instance.
     using PlacedEmitters = std::map<const LightInstance*, std::shared_ptr<Emitter>>;
@@ -106,13 +105,17 @@ class SceneBuilder {
     ShapePointer shared_or_new(Shape&& shape);
     void add_to_object(std::string request, std::vector<ShapePointer> shapes, std::vector<float> times,
                        SourceLocation at);
-    void emit(const std::string& request, std::vector<ShapePointer> shape_keys,
-              const MovingTransform& transform, const std::shared_ptr<const AttributeState>& attributes,
+    void emit(const std::string& request, std::vector<ShapePointer> shape_keys, const GraphicsState& state,
               SourceLocation at, int solid);
-    std::shared_ptr<const Attributes> resolved_attributes(const std::shared_ptr<const AttributeState>& state,
+    std::shared_ptr<const Attributes> resolved_attributes(const GraphicsState& state,
                                                           const std::vector<M44f>& camera_from_object,
                                                           bool mirrored);
-    float displacement_length(const AttributeState& attributes, const std::vector<M44f>& camera_from_object);
+    float displacement_length(const GraphicsState& state, const std::vector<M44f>& camera_from_object);
+
+    using SpacesPointer = std::shared_ptr<const NamedSpaces>;
+    SpacesPointer placed_spaces(const RetainedObject& object, const SpacesPointer& of_primitive) const;
+    bool remember_spaces(const SpacesPointer& spaces);
+    void bind_spaces();
 
     const ReadOptions& read_options_;
     RequestReport& report_;
@@ -137,6 +140,9 @@ class SceneBuilder {
         SourceLocation first;
         std::string request;
     } turned_away_;
+
+    /// Primitives of the scene in whose place coordinate systems hold that do not hold for all.
+    std::vector<std::pair<size_t, std::shared_ptr<const NamedSpaces>>> in_spaces_;
 
     NameCounts primitive_counts_;
 

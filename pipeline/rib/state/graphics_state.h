@@ -100,7 +100,8 @@ struct ObjectPrimitive {
     /// `shapes` at the keys of the shutter, made by the first instance for all.
     std::vector<std::shared_ptr<const Shape>> keys;
     float keys_open = 0, keys_close = 0;
-    int solid = -1;  ///< of the object's
+    int solid = -1;                             ///< of the object's
+    std::shared_ptr<const NamedSpaces> spaces;  ///< ScopedCoordinateSystem of the definition; null: none
 };
 
 /// An object between ObjectBegin and ObjectEnd, and as instances find it. Its primitives stand in the
@@ -110,6 +111,7 @@ struct RetainedObject {
     std::vector<ObjectPrimitive> primitives;
     std::vector<std::shared_ptr<const LightInstance>> lights;  ///< of RIS; in the object's space
     SolidList solids;
+    NamedSpaces named_spaces;  ///< CoordinateSystem of the definition
 };
 
 /// A channel that modes of Displays may name.

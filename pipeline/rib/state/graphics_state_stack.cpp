@@ -76,6 +76,7 @@ void GraphicsStateStack::open(BlockKind kind, SourceLocation at) {
     block.kind = kind, block.id = ++block_count_, block.at = at, block.saved = state_;
     ++open_counts_[static_cast<size_t>(kind)];
     if (kind == BlockKind::Frame || kind == BlockKind::World) block.scope = std::make_unique<Scope>(scope_);
+    if (kind == BlockKind::Object) object_spaces_.clear();
     if (kind == BlockKind::World) scope_.named_spaces["world"] = camera_from_world_ = state_.transform;
 }
 
@@ -116,7 +117,7 @@ MovingTransform GraphicsStateStack::root_transform() const {
 /// Kept with its motion, and taken as the shutter opens only when the world is delivered: until WorldBegin
 /// the shutter may change.
 void GraphicsStateStack::name_coordinate_system(const std::string& name) {
-    scope_.named_spaces[name] = state_.transform;
+    (in_object() ? object_spaces_ : scope_.named_spaces)[name] = state_.transform;
 }
 
 /// Copied on each new name: saved states share the map, and scenes name few.
@@ -125,15 +126,15 @@ void GraphicsStateStack::name_scoped_coordinate_system(const std::string& name) 
                                        : std::make_shared<NamedSpaces>();
     (*spaces)[name] = state_.transform;
     state_.scoped_spaces = std::move(spaces);
-    // Shaders look names up when the world is whole: there the first of a name stands for all.
-    scope_.named_spaces.try_emplace(name, state_.transform);
+    // Shaders elsewhere know the first of a name, unless there is one for all.
+    if (!in_object()) scope_.named_spaces.try_emplace(name, state_.transform);
 }
 
 /// Scoped names hide others.
-const MovingTransform* GraphicsStateStack::named_space(const std::string& name) const {
-    if (state_.scoped_spaces)
-        if (const auto space = state_.scoped_spaces->find(name); space != state_.scoped_spaces->end())
-            return &space->second;
+const MovingTransform* GraphicsStateStack::named_space(const std::string& name,
+                                                       const NamedSpaces* scoped) const {
+    if (scoped)
+        if (const auto space = scoped->find(name); space != scoped->end()) return &space->second;
     const auto space = scope_.named_spaces.find(name);
     return space == scope_.named_spaces.end() ? nullptr : &space->second;
 }
@@ -142,7 +143,7 @@ const MovingTransform* GraphicsStateStack::named_space(const std::string& name) 
 void GraphicsStateStack::use_coordinate_system(const std::string& name) {
     if (in_motion()) throw RequestError{"inside a motion block", {}};
     if (in_object()) throw RequestError{"inside an object definition", {}};
-    const MovingTransform* const space = named_space(name);
+    const MovingTransform* const space = named_space(name, state_.scoped_spaces.get());
     if (!space && name != "camera") throw RequestError{"no coordinate system " + in_quotes(name), {}};
     state_.transform = space ? *space : MovingTransform();
 }

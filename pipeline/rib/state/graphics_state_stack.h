@@ -65,14 +65,16 @@ class GraphicsStateStack {
     /// What Identity and Transform are relative to: the world in a world, the camera before it, and the
     /// object in its definition.
     MovingTransform root_transform() const;
-    /// CoordinateSystem: the name lasts until the world ends.
+    /// CoordinateSystem: the name lasts until the world ends. In an object it is for the object's shaders.
     void name_coordinate_system(const std::string& name);
     /// ScopedCoordinateSystem: the name ends with the block.
     void name_scoped_coordinate_system(const std::string& name);
     /// CoordSysTransform: throws a RequestError for unknown names.
     void use_coordinate_system(const std::string& name);
-    /// Null when there is none of that name.
-    const MovingTransform* named_space(const std::string& name) const;
+    /// Null when there is none of that name, neither among `scoped` nor for all.
+    const MovingTransform* named_space(const std::string& name, const NamedSpaces* scoped) const;
+    /// CoordinateSystem of the object that is being defined, in its space.
+    const NamedSpaces& object_spaces() const { return object_spaces_; }
     /// The current space as the shutter opens.
     M44f camera_from_current() const;
     /// The same at kHeldKeys keys of the shutter; empty where nothing moves it then.
@@ -90,6 +92,7 @@ class GraphicsStateStack {
     Declarations declarations_;
     SavedStates saved_states_;
     MovingTransform camera_from_world_;
+    NamedSpaces object_spaces_;
     std::vector<OpenBlock> blocks_;
     std::array<size_t, kBlockKinds> open_counts_{};  ///< by BlockKind
     uint64_t block_count_ = 0;                       ///< since the beginning, for the blocks' ids
