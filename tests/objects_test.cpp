@@ -1,5 +1,6 @@
-/// Pictures of what objects have of their own, and of coordinate systems that hold in a part of a world: each
-/// beside what the same text makes without an object, or a closed form.
+/// Pictures of what objects have of their own, of coordinate systems that hold in a part of a world, and of
+/// what moves or stands with the camera: each beside what the same text makes without an object, or a closed
+/// form.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -94,6 +95,24 @@ TEST(ScopedSpaces, ThoseOfObjectsStandWhereTheInstanceDoes) {
                                "AttributeBegin Translate 1 0 0 ObjectInstance 1 AttributeEnd");
         for (const int x : {1, 6}) expect_space_at(seen, x, -1);
         for (const int x : {9, 14}) expect_space_at(seen, x, 1);
+    }
+}
+
+/// What stands before Projection is done to the picture: here to a rectangle from x = 0 to 1.
+TEST(Screen, TransformationsBeforeProjectionMoveThePicture) {
+    const std::string world = "Surface \"constant\" Polygon \"P\" [0 -9 0  1 -9 0  1 9 0  0 9 0] ";
+    const auto seen = [&](const std::string& before, const std::string& projection) {
+        const Image image = picture(before + "Projection " + projection + " Translate 0 0 1 ", world);
+        std::string row;
+        for (int x = 0; x < kWidth; ++x) row += pixel(image, x)[3] > 0 ? '#' : '.';
+        return row;
+    };
+    for (const std::string projection : {"\"orthographic\"", "\"perspective\" \"fov\" 90"}) {
+        EXPECT_EQ(seen("", projection), "........####....");
+        EXPECT_EQ(seen("Scale -1 1 1 ", projection), "....####........");
+        EXPECT_EQ(seen("Scale 2 1 1 ", projection), "........########");
+        EXPECT_EQ(seen("Translate -.5 .25 3 ", projection), "......####......");
+        EXPECT_EQ(seen("Translate -.5 0 0 Scale -1 1 2 ", projection), "..####..........");
     }
 }
 

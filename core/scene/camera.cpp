@@ -49,6 +49,10 @@ Camera make_camera(const Options& options) {
     std::array<float, 4> window = aspect >= 1 ? std::array{-aspect, aspect, -1.0f, 1.0f}
                                               : std::array{-1.0f, 1.0f, -1 / aspect, 1 / aspect};
     if (options.screen_window) window = *options.screen_window;
+    camera.screen_window = window;
+    // On the plane the window stands where the projection has what is then moved into it.
+    for (size_t i = 0; i < 4; ++i)
+        window[i] = (window[i] - options.screen_offset[i / 2]) / options.screen_scale[i / 2];
     camera.left = window[0], camera.right = window[1], camera.bottom = window[2], camera.top = window[3];
     camera.tan_half_fov =
         camera.perspective ? static_cast<float>(portable::tan(options.fov * (M_PI / 360))) : 1.0f;

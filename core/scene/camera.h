@@ -2,6 +2,8 @@
 /// top left of the whole image (not of the crop). Camera space: x right, y up, z forward.
 #pragma once
 
+#include <array>
+
 #include "core/math.h"
 #include "core/pixel_rect.h"
 #include "core/rays.h"
@@ -23,7 +25,10 @@ struct Camera {
     /// The image plane: z = 1 for perspective, any z for orthographic; plane = raster * scale + offset.
     float plane_scale_x = 1, plane_offset_x = 0;
     float plane_scale_y = -1, plane_offset_y = 0;
-    float left = -1, right = 1, bottom = -1, top = 1;  ///< the screen window (for worldToNDC)
+    /// The part of the plane that fills the picture, over tan_half_fov.
+    float left = -1, right = 1, bottom = -1, top = 1;
+    /// The same in screen space: left right bottom top. Transformations before Projection part the two.
+    std::array<float, 4> screen_window{-1, 1, -1, 1};
     float tan_half_fov = 1;
 
     bool has_lens() const { return lens_radius > 0; }

@@ -51,6 +51,27 @@ TEST(Camera, FovSpansTheShorterSideAndRasterRunsDown) {
     EXPECT_NEAR(left.ux, -2, 1e-6);
 }
 
+/// RISpec 4.1.1: the window is of the screen, on which what is projected is scaled and shifted first.
+TEST(Camera, TheScreenMayBeScaledAndShifted) {
+    Options options = small_options();
+    options.screen_window = {-2, 2, -1, 1};
+    options.screen_scale = {-2, 0.5f}, options.screen_offset = {0.5f, 0.25f};
+    const Camera camera = make_camera(options);
+    for (const V2f& plane : {V2f(0, 0), V2f(0.3f, -0.7f), V2f(-1, 2)}) {
+        const V2f screen(plane.x * -2 + 0.5f, plane.y * 0.5f + 0.25f);
+        const V2f raster = camera.raster_from_camera(V3f(plane.x * 3, plane.y * 3, 3));
+        EXPECT_NEAR(raster.x, (screen.x + 2) / 4 * 200, 1e-3);
+        EXPECT_NEAR(raster.y, (1 - screen.y) / 2 * 100, 1e-3);
+    }
+    EXPECT_EQ(camera.screen_window, *options.screen_window);
+    // -1 to 1 across the picture, as without.
+    V3f end;
+    screen_from_camera(camera).multVecMatrix(V3f(camera.left * 3, camera.top * 3, 3), end);
+    EXPECT_NEAR(end.x, -1, 1e-5);
+    EXPECT_NEAR(end.y, 1, 1e-5);
+    EXPECT_NEAR(camera.left * -2 + 0.5f, -2, 1e-5);
+}
+
 TEST(Camera, WhatIsInFocusIsSharpFromAllOfTheLens) {
     for (const char* projection : {"perspective", "orthographic"}) {
         Options options = with_lens();

@@ -89,10 +89,12 @@ struct Options {
     float pixel_aspect = 1;
     std::optional<float> frame_aspect;
     std::optional<std::array<float, 4>> screen_window;  ///< left right bottom top
-    std::array<float, 4> crop_window{0, 1, 0, 1};       ///< xmin xmax ymin ymax, fractions of the raster
-    std::string projection = "orthographic";            ///< or "perspective"
-    float fov = 90;                                     ///< degrees
-    float near_clip = kEpsilon, far_clip = kInfinity;   ///< camera-space z
+    /// Of x and y: screen = projected * scale + offset, of transformations before Projection. No scale is 0.
+    std::array<float, 2> screen_scale{1, 1}, screen_offset{0, 0};
+    std::array<float, 4> crop_window{0, 1, 0, 1};      ///< xmin xmax ymin ymax, fractions of the raster
+    std::string projection = "orthographic";           ///< or "perspective"
+    float fov = 90;                                    ///< degrees
+    float near_clip = kEpsilon, far_clip = kInfinity;  ///< camera-space z
     float f_stop = kInfinity, focal_length = 0, focal_distance = 0;  ///< infinite f_stop: pinhole
     float shutter_open = 0, shutter_close = 0;
     float samples_x = 2, samples_y = 2;

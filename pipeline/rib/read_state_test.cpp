@@ -201,6 +201,26 @@ TEST(ReadState, SeveralFilesAreOneStream) {
     EXPECT_EQ(r.attributes().color, V3f(1, 0, 0));
 }
 
+/// RISpec 4.1.1: of a mirror or a shift the picture is another; of what turns it, it is said that it is
+/// ignored.
+TEST(ReadState, TransformationsBeforeProjectionAreTheScreens) {
+    const ReadOutcome r =
+        read_text("Translate .5 -2 7 Scale -1 3 2 Projection \"orthographic\" Translate 0 0 9 WorldBegin " +
+                  kSphere + "WorldEnd Translate 3 3 3 Projection \"orthographic\" WorldBegin WorldEnd");
+    EXPECT_EQ(r.scene().options.screen_scale, (std::array<float, 2>{-1, 3}));
+    EXPECT_EQ(r.scene().options.screen_offset, (std::array<float, 2>{.5f, -2}));
+    EXPECT_EQ(r.primitive().camera_from_object[0].translation(), V3f(0, 0, 9));
+    EXPECT_THAT(r.messages, ::testing::IsEmpty());
+    // What is left of a world before is none of the screen's.
+    EXPECT_EQ(r.worlds[1].options.screen_scale, r.scene().options.screen_scale);
+    EXPECT_EQ(r.worlds[1].options.screen_offset, r.scene().options.screen_offset);
+    const ReadOutcome turned =
+        read_text("Rotate 30 0 0 1 Projection \"orthographic\" WorldBegin " + kSphere + "WorldEnd");
+    EXPECT_EQ(turned.scene().options.screen_scale, (std::array<float, 2>{1, 1}));
+    EXPECT_EQ(turned.primitive().camera_from_object[0], M44f());
+    EXPECT_THAT(turned.messages, ElementsAre(::testing::HasSubstr("Scale and Translate change the screen")));
+}
+
 TEST(ReadState, TransformAndIdentityAreRelativeToTheWorld) {
     const ReadOutcome r = read_text("Translate 0 0 9 WorldBegin Translate 1 0 0 Identity " + kSphere +
                                     "Transform [1 0 0 0 0 1 0 0 0 0 1 0 5 0 0 1] " + kSphere +
@@ -213,6 +233,29 @@ TEST(ReadState, TransformAndIdentityAreRelativeToTheWorld) {
     EXPECT_EQ(r.messages.size(), 1u);
     EXPECT_EQ(r.scene().camera_from_named.at("here").translation(), V3f(5, 0, 9));
     EXPECT_EQ(r.scene().camera_from_named.at("world").translation(), V3f(0, 0, 9));
+}
+
+/// Where the camera sees in parallel: 200 by 100 pixels of a window of 4 by 2.
+TEST(ReadState, SpacesOfThePictureAreTransformations) {
+    const auto read = [](const std::string& projection) {
+        return read_text("Format 200 100 1 ScreenWindow -1 3 -1 1 Clipping 1 5 Projection " + projection +
+                         " Translate 0 0 9 WorldBegin CoordSysTransform \"raster\" " + kSphere +
+                         "CoordSysTransform \"NDC\" " + kSphere + "CoordSysTransform \"screen\" " + kSphere +
+                         "WorldEnd");
+    };
+    const ReadOutcome r = read("\"orthographic\"");
+    EXPECT_THAT(r.messages, ::testing::IsEmpty());
+    const auto in_camera = [&](size_t i, const V3f& p) { return p * r.primitive(i).camera_from_object[0]; };
+    const auto expect_near = [](const V3f& a, const V3f& b) {
+        EXPECT_NEAR((a - b).length(), 0, 1e-5f) << a << b;
+    };
+    expect_near(in_camera(0, V3f(50, 25, 0)), V3f(0, 0.5f, 1));
+    expect_near(in_camera(1, V3f(0.25f, 0.25f, 0.5f)), V3f(0, 0.5f, 3));
+    expect_near(in_camera(2, V3f(2, -0.5f, 1)), V3f(2, -0.5f, 5));
+    EXPECT_THAT(
+        read("\"perspective\"").messages,
+        ElementsAre(HasSubstr("\"raster\" of a perspective camera"), HasSubstr("\"NDC\" of a perspective"),
+                    HasSubstr("\"screen\" of a perspective camera")));
 }
 
 TEST(ReadState, LightsAreSwitchedWithinBlocks) {

@@ -12,6 +12,7 @@ constexpr RequestNote kRequests[] = {
     {"Bxdf", "RIS shaders are not run: rissurface, in the Bxdf's colour or texture"},
     {"ColorSamples", "colours are turned into RGB where they are read"},
     {"Deformation", "no such shaders"},
+    {"CoordSysTransform", "\"screen\", \"NDC\" and \"raster\" where the projection is orthographic"},
     {"Detail", "not within object definitions"},
     {"Displace", "read; RIS shaders are not run"},
     {"DisplayFilter", "read; RIS shaders are not run"},
@@ -49,7 +50,9 @@ constexpr RequestNote kRequests[] = {
     {"PixelVariance",
      "with --variance, or a Hider whose maxsamples is above minsamples; else all pixels have all samples"},
     {"Procedural", "at once, for infinite detail; programs and libraries where the command line allows them"},
-    {"Projection", "perspective and orthographic"},
+    {"Projection",
+     "perspective and orthographic; of transformations before it those that scale and shift the picture, others are "
+     "warned about"},
     {"Quantize", "8, 16 bits and floats, by display"},
     {"SampleFilter", "read; RIS shaders are not run"},
     {"ShaderLayer", "surface, displacement and atmosphere"},

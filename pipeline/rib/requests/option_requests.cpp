@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 #include <string_view>
+#include <utility>
 
 #include "core/scene/layer_limit.h"
 #include "core/scene/ray_scene.h"
@@ -76,6 +77,39 @@ void crop_window(OptionContext& r, ArgumentCursor& c) {
     changeable_options(r).crop_window = w;
 }
 
+/// Whether a transformation scales and shifts x and y, and does nothing else to them.
+bool keeps_axes(const M44d& m) {
+    for (const auto& [row, column] : {std::pair{0, 1}, {1, 0}, {2, 0}, {2, 1}, {0, 3}, {1, 3}, {2, 3}})
+        if (m[row][column] != 0) return false;
+    constexpr double kLeast = 1e-20, kMost = 1e20;  // so that windows stay numbers
+    for (const int axis : {0, 1}) {
+        const double scale = std::abs(m[axis][axis] / m[3][3]), shift = std::abs(m[3][axis] / m[3][3]);
+        if (!(scale > kLeast && scale < kMost && shift < kMost)) return false;
+    }
+    return true;
+}
+
+/// RISpec 4.1.1: what came before Projection transforms the screen, what follows places the world before the
+/// camera. Of the former scales and shifts of x and y count; z is only depth there. What is left of a world
+/// before has placed that world, and is dropped.
+void transform_screen(OptionContext& r) {
+    const MovingTransform transform = std::exchange(r.state.current().transform, MovingTransform());
+    if (std::exchange(r.state.scope().has_projection, true)) return;
+    Options& o = r.state.options();
+    const M44d screen = transform.at(o.shutter_open);
+    if (transform.moves_between(o.shutter_open, o.shutter_close))
+        r.report.warn_once("the screen does not move; what comes before is taken as the shutter opens",
+                           "moving-screen");
+    if (!keeps_axes(screen))
+        return r.report.warn_once(
+            "of what comes before, Scale and Translate change the screen; this is ignored", "turned-screen");
+    for (const int axis : {0, 1}) {
+        const auto i = static_cast<size_t>(axis);
+        o.screen_scale[i] = static_cast<float>(screen[axis][axis] / screen[3][3]);
+        o.screen_offset[i] = static_cast<float>(screen[3][axis] / screen[3][3]);
+    }
+}
+
 /// Projection name parameters: "perspective" with "fov" in degrees along the smaller side, or "orthographic".
 void projection(OptionContext& r, ArgumentCursor& c) {
     constexpr float kWidest = 120;  // degrees, of what stands for wider projections
@@ -100,8 +134,7 @@ void projection(OptionContext& r, ArgumentCursor& c) {
                 distance = parameters.float_or("focalDistance", 0);
     if (f_stop > 0 && f_stop < kInfinity && length > 0 && distance > 0)
         o.f_stop = f_stop, o.focal_length = length, o.focal_distance = distance;
-    // RISpec 4.1.1: what came before belongs to the screen; what follows places the world before the camera.
-    if (!r.state.in_world()) r.state.current().transform = MovingTransform();
+    if (!r.state.in_world()) transform_screen(r);
 }
 
 /// Clipping near far: distances in camera space. A near plane of 0 is put just before the eye, where

@@ -2,6 +2,7 @@
 
 #include "core/scene/poses.h"
 #include "pipeline/rib/state/bases.h"
+#include "shade/materials/picture_spaces.h"
 
 namespace trapeze::rib {
 namespace {
@@ -139,13 +140,22 @@ const MovingTransform* GraphicsStateStack::named_space(const std::string& name,
     return space == scope_.named_spaces.end() ? nullptr : &space->second;
 }
 
-/// The name "camera" is known without a definition: there nothing has been transformed.
+/// Some names are known without a definition: in "camera" nothing has been transformed, and where the camera
+/// sees in parallel, "screen", "NDC" and "raster" are scales and shifts of it, as options have them now.
 void GraphicsStateStack::use_coordinate_system(const std::string& name) {
     if (in_motion()) throw RequestError{"inside a motion block", {}};
     if (in_object()) throw RequestError{"inside an object definition", {}};
-    const MovingTransform* const space = named_space(name, state_.scoped_spaces.get());
-    if (!space && name != "camera") throw RequestError{"no coordinate system " + in_quotes(name), {}};
-    state_.transform = space ? *space : MovingTransform();
+    if (const MovingTransform* const space = named_space(name, state_.scoped_spaces.get())) {
+        state_.transform = *space;
+        return;
+    }
+    const Camera camera = make_camera(scope_.options);
+    const std::optional<M44d> of_picture = camera_from_picture(camera, name);
+    if (of_picture && camera.perspective)
+        throw RequestError{in_quotes(name) + " of a perspective camera is no transformation of surfaces", {}};
+    if (!of_picture && name != "camera") throw RequestError{"no coordinate system " + in_quotes(name), {}};
+    state_.transform = MovingTransform();
+    if (of_picture) state_.transform.concat(*of_picture);
 }
 
 /// Row vectors: p_camera = p_current * M.
