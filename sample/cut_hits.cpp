@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/motion_keys.h"
 #include "core/scene/solid_state.h"
 #include "sample/hit_lists.h"
 
@@ -85,6 +86,16 @@ struct CutScratch {
     }
 };
 
+/// Mixed between keys as vertices are: a polygon that moves with the plane ends on it.
+float height_above(const ClippingPlane& moving, const V3f& at, float time01) {
+    const MotionSegment segment = segment_at(time01, static_cast<int>(moving.keys.size()));
+    const auto height = [&](size_t key) {
+        return moving.keys[key].normal.dot(at) - moving.keys[key].distance;
+    };
+    const auto first = static_cast<size_t>(segment.index);
+    return height(first) * (1 - segment.local) + height(first + 1) * segment.local;
+}
+
 /// Another method's hits without those that clipping planes or solids take away.
 ///
 /// Which solids hold the point where a list begins follows from all that the ray crosses, in front of it too.
@@ -126,7 +137,8 @@ class CutVisibility : public Visibility {
     bool is_cut_away(const AxisRay& ray, const Hit& hit) const {
         const V3f at(ray.ox + ray.ux * hit.depth, ray.oy + ray.uy * hit.depth, hit.depth);
         return std::ranges::any_of(scene_.clipping_planes, [&](const ClippingPlane& plane) {
-            return plane.normal.dot(at) < plane.distance;
+            return plane.keys.empty() ? plane.normal.dot(at) < plane.distance
+                                      : height_above(plane, at, ray.time) < 0;
         });
     }
 

@@ -116,5 +116,24 @@ TEST(Screen, TransformationsBeforeProjectionMoveThePicture) {
     }
 }
 
+/// The plane is the world's, before which the camera moves: all that is cut is what the polygon that ends at
+/// it has not.
+TEST(ClippingPlanes, MoveWithTheWorldBeforeAMovingCamera) {
+    const std::string camera =
+        "Shutter 0 1 PixelSamples 8 8 Projection \"orthographic\" Translate 0 0 5 MotionBegin [0 1] "
+        "Translate 0 0 0 Translate 1 0 0 MotionEnd ";
+    const auto polygon = [](const std::string& end) {
+        return "Surface \"constant\" Polygon \"P\" [-9 -9 0 " + end + " -9 0 " + end + " 9 0 -9 9 0] ";
+    };
+    const Image cut = picture(camera + "ClippingPlane 0 0 0 1 0 0 ", polygon("9"));
+    const Image ends = picture(camera, polygon("0"));
+    for (int x = 0; x < kWidth; ++x) {
+        EXPECT_NEAR(pixel(cut, x)[3], pixel(ends, x)[3], 0.02f) << x;
+        // The edge goes from 0 to 1 at an even speed.
+        const float middle = (static_cast<float>(x) + 0.5f) / 4 - 2;
+        EXPECT_NEAR(pixel(cut, x)[3], std::clamp(1 - middle, 0.0f, 1.0f), 0.06f) << x;
+    }
+}
+
 }  // namespace
 }  // namespace trapeze::testing

@@ -214,10 +214,16 @@ struct Solid {
     int place = 0;    ///< among the parent's children: a difference subtracts all but the first
 };
 
-/// A plane that cuts away the half space in which normal . p < distance; camera space, at shutter open.
+/// A plane that cuts away the half space in which normal . p < distance; camera space.
 struct ClippingPlane {
-    V3f normal{0, 0, 1};
+    V3f normal{0, 0, 1};  ///< at shutter open, as the distance
     float distance = 0;
+    struct Key {
+        V3f normal;
+        float distance = 0;
+    };
+    /// At kHeldKeys even keys of the shutter (poses.h), linear in between. Empty: the plane stays.
+    std::vector<Key> keys{};
 };
 
 /// All of a frame that later stages read. Immutable once the RIB border has made it.

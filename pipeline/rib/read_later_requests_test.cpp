@@ -107,9 +107,24 @@ TEST(ClippingPlanes, AreKeptInCameraSpace) {
         EXPECT_EQ(scene.clipping_planes[1].normal, V3f(0, 0, 1));
         EXPECT_EQ(scene.clipping_planes[1].distance, 5);
     }
+    EXPECT_TRUE(outcome.scene().clipping_planes[0].keys.empty());
     EXPECT_THAT(
         read_text("ClippingPlane 0 0 0 0 0 0 WorldBegin ClippingPlane 0 0 0 0 0 1 WorldEnd").messages,
         ElementsAre(HasSubstr("the normal is 0"), HasSubstr("an option, which belongs before WorldBegin")));
+}
+
+/// The world's plane x = 0 before a camera that goes 1 to the left, also where the shutter is said later.
+TEST(ClippingPlanes, MoveAsTheirSpaceDoes) {
+    const ReadOutcome outcome = read_text(
+        "MotionBegin [0 1] Translate 0 0 0 Translate 1 0 0 MotionEnd ClippingPlane 0 0 0 1 0 0 "
+        "Shutter 0 .5 WorldBegin WorldEnd");
+    const ClippingPlane& plane = outcome.scene().clipping_planes.at(0);
+    EXPECT_EQ(plane.distance, 0);
+    ASSERT_EQ(plane.keys.size(), 17u);
+    EXPECT_EQ(plane.keys.front().distance, 0);
+    EXPECT_EQ(plane.keys[8].distance, -0.25f);
+    EXPECT_EQ(plane.keys.back().distance, -0.5f);
+    EXPECT_EQ(plane.keys.back().normal, V3f(-1, 0, 0));
 }
 
 TEST(ColorSamples, ColoursHaveSoManyValuesEach) {

@@ -107,7 +107,8 @@ void SceneBuilder::deliver_world() {
                                              read_options_.wants_frame(options.frame));
     scene_.solids = std::move(solids_.solids);
     scene_.options = std::move(options);
-    scene_.clipping_planes = scope.clipping_planes;
+    for (const ReadPlane& plane : scope.clipping_planes)
+        scene_.clipping_planes.push_back(plane.in_shutter(open, scene_.options.shutter_close));
     resolved_ = {};
     bind_spaces();
     light_world();

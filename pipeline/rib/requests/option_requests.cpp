@@ -369,22 +369,15 @@ void pixel_variance(OptionContext& r, ArgumentCursor& c) {
     changeable_options(r).pixel_variance = variance;
 }
 
-/// RISpec 4.1.1: the half space on the side to which the normal points is cut away. Normals go with the
-/// inverse transpose of the matrix. The plane is kept in camera space, with a unit normal that points to what
-/// stays.
+/// RISpec 4.1.1: the half space on the side to which the normal points is cut away.
 void clipping_plane(OptionContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(6, "the plane");
-    const V3d point(v[0], v[1], v[2]), normal(v[3], v[4], v[5]);
-    require(normal.length() > 0, "the normal is 0");
+    const ReadPlane plane{r.state.current().transform, V3d(v[0], v[1], v[2]), V3d(v[3], v[4], v[5])};
+    require(plane.normal.length() > 0, "the normal is 0");
     changeable_options(r);
-    const M44d camera_from_current(r.state.camera_from_current());
-    const M44d normals = camera_from_current.inverse().transposed();
-    V3d camera_normal, camera_point;
-    normals.multDirMatrix(normal, camera_normal);
-    camera_from_current.multVecMatrix(point, camera_point);
-    require(camera_normal.length() > 0 && std::isfinite(camera_normal.length()), "the space is singular");
-    const V3d inwards = -camera_normal.normalized();
-    r.state.scope().clipping_planes.push_back({V3f(inwards), static_cast<float>(inwards.dot(camera_point))});
+    ClippingPlane::Key key;
+    require(plane.at(r.state.options().shutter_open, key), "the space is singular");
+    r.state.scope().clipping_planes.push_back(plane);
 }
 
 /// RISpec 4.1.4. The matrix back from RGB is for displays of samples, which nobody makes.

@@ -120,6 +120,19 @@ struct DisplayChannel {
     ParameterList parameters;
 };
 
+/// ClippingPlane: what is on the side to which the normal points is cut away. Kept with its motion until the
+/// world is delivered, as the shutter may change.
+struct ReadPlane {
+    MovingTransform transform;  ///< camera_from_plane
+    V3d point, normal;
+
+    /// The plane in camera space, with a unit normal that points to what stays. False where its space is
+    /// singular.
+    bool at(float time, ClippingPlane::Key& key) const;
+    /// As scenes have it.
+    ClippingPlane in_shutter(float open, float close) const;
+};
+
 /// ColorSamples (RISpec 4.1.4): colours of n samples, and their matrix of n rows of red, green, blue.
 struct ColorSamples {
     size_t samples = 0;
@@ -131,7 +144,7 @@ struct ColorSamples {
 struct Scope {
     Options options;
     NamedSpaces named_spaces;
-    std::vector<ClippingPlane> clipping_planes;
+    std::vector<ReadPlane> clipping_planes;
     std::optional<ColorSamples> color_samples;
     float relative_detail = 1;
     bool has_pixel_samples = false;  ///< PixelSamples was given: a hider's sample counts are not looked at
