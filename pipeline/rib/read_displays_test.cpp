@@ -44,6 +44,15 @@ TEST(ReadDisplays, ModesNameVariablesWhoseTypesAreKnown) {
     expect_variable(variable_of("foo", "DisplayChannel \"varying color foo\""), "foo", ValueType::Color);
 }
 
+TEST(ReadDisplays, QuantizeMayNameTheirVariablesBeforeThem) {
+    const ReadOutcome r = read_text(
+        "Quantize \"foo\" 1000 0 65535 0\nQuantize \"bar\" 255 0 255 0\nDisplay \"a.tif\" \"tiff\" \"rgba\" "
+        "Display \"+b.tif\" \"tiff\" \"varying color foo\" WorldBegin WorldEnd");
+    EXPECT_THAT(r.messages, ElementsAre(HasSubstr("a.rib:2:1: warning: Quantize: \"bar\" is not known")));
+    ASSERT_TRUE(r.scene().options.quantize.find("foo"));
+    EXPECT_EQ(r.scene().options.quantize.float_or("foo", 0), 1000);
+}
+
 TEST(ReadDisplays, ColourDepthAndIdsAreNoVariables) {
     for (const char* mode : {"", "rgb", "rgba", "rgbaz", "a", "z", "az", "id"})
         EXPECT_FALSE(variable_of(mode));

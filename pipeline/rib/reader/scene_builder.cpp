@@ -84,10 +84,27 @@ void SceneBuilder::make_map(MapRequest request) {
     read_options_.on_map(request);
 }
 
+/// Types of Quantize that are no display's: displays may come after it.
+void SceneBuilder::report_quantized() {
+    const Options& options = state_.options();
+    for (const auto& [type, at] : state_.scope().quantized) {
+        constexpr std::string_view kOfPictures[] = {"rgba", "z", "Ci", "Cs", "Oi", "Os"};
+        const bool is_shown = std::ranges::any_of(options.displays, [&type = type](const Display& display) {
+            return display.variable && display.variable->name == type;
+        });
+        if (is_shown || std::ranges::find(kOfPictures, type) != std::end(kOfPictures)) continue;
+        const OtherRequest there(report_, at, "Quantize");
+        report_.warn_once(
+            in_quotes(type) + " is not known: the type is \"rgba\", \"z\" or a display's variable",
+            "quantize-" + type);
+    }
+}
+
 /// Spaces are taken as the shutter opens: shaders know no others. The options are moved out of the scope,
 /// whose own are restored right afterwards.
 void SceneBuilder::deliver_world() {
     ++report_.summary().worlds;
+    report_quantized();
     Scope& scope = state_.scope();
     Options& options = scope.options;
     const float open = options.shutter_open;

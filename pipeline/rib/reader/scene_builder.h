@@ -95,6 +95,7 @@ class SceneBuilder {
     void place_emitter(const AttributeState& state, const Shape& shape, const M44f& camera_from_shape);
     void add_strays(std::vector<std::shared_ptr<const LightInstance>>& lights);
     void light_world();
+    void report_quantized();
 
     /// Else primitives are checked and counted, and their memory is given back at once.
     bool keeps_geometry() const { return read_options_.keep_geometry && frame_is_wanted_; }

@@ -264,11 +264,7 @@ void quantize(OptionContext& r, ArgumentCursor& c) {
     value.name = c.string("the type");
     value.floats = c.numbers(4, "one, min, max and dither");
     if (value.name == "rgb") value.name = "rgba";  // as scenes in the world write it
-    const bool names_a_variable =
-        value.name == "Ci" || value.name == "Cs" || value.name == "Oi" || value.name == "Os";
-    if (value.name != "rgba" && value.name != "z" && !names_a_variable)
-        r.report.warn_once(in_quotes(value.name) + " is not known: the type is \"rgba\" or \"z\"",
-                           "quantize-" + value.name);
+    r.state.scope().quantized.try_emplace(value.name, r.report.at());
     value.declaration.array_length = 4;
     changeable_options(r).quantize.set(std::move(value));
 }

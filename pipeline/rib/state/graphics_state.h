@@ -149,6 +149,7 @@ struct Scope {
     float relative_detail = 1;
     bool has_pixel_samples = false;  ///< PixelSamples was given: a hider's sample counts are not looked at
     bool has_projection = false;     ///< Projection was given
+    std::map<std::string, SourceLocation> quantized;  ///< types that Quantize has named
     std::map<std::string, std::shared_ptr<const LightInstance>> lights;
     std::vector<std::shared_ptr<const Emitter>> emitters;  ///< of RSL, that no Illuminate has named
     std::map<std::string, DisplayChannel> display_channels;
