@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "shade/materials/named_values.h"
+#include "shade/named_values.h"
 
 namespace trapeze {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "shade/materials/bound_shader.h"
 #include "shade/materials/fill_plane.h"
-#include "shade/materials/named_values.h"
+#include "shade/named_values.h"
 
 namespace trapeze {
 namespace {

@@ -1,4 +1,4 @@
-#include "shade/materials/named_values.h"
+#include "shade/named_values.h"
 
 #include <algorithm>
 #include <array>

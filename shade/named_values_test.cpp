@@ -1,4 +1,4 @@
-#include "shade/materials/named_values.h"
+#include "shade/named_values.h"
 
 #include "shade/materials/shader_folder_harness.h"
 #include "shade/shading_harness.h"
