@@ -150,9 +150,7 @@ void attribute(OptionContext& r, ArgumentCursor& c) {
         if (category == "trimcurve" && value.name == "sense") set_trim_sense(r, text, state);
         if (category == "identifier" && value.name == "name")
             name_primitives(r.state, text, r.state.change_attributes(Own::Name));
-        if (category == "dice" && value.name == "micropolygonlength" && !value.floats.empty() &&
-            value.floats[0] > 0)
-            r.state.change_attributes(Own::ShadingRate);
+        if (shading_rate_of(category, value)) r.state.change_attributes(Own::ShadingRate);
         if (category != "Ri" || !execute_ri_value(r, value)) count_value(r, category, value);
     }
 }

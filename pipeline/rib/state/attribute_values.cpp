@@ -52,9 +52,13 @@ void set_attribute_value(const std::string& category, const Parameter& value, At
     set_ray_attribute(category, value, a.rays);
     if (category == "cull" && value.name == "hidden") a.cull_hidden = number != 0;
     if (category == "dice") set_dice(a.dice, value.name, number);
-    // The later RenderMan's, of a side in pixels.
-    if (category == "dice" && value.name == "micropolygonlength" && number > 0)
-        a.shading_rate = number * number;
+    if (const std::optional<float> rate = shading_rate_of(category, value)) a.shading_rate = *rate;
+}
+
+std::optional<float> shading_rate_of(const std::string& category, const Parameter& value) {
+    if (category != "dice" || value.name != "micropolygonlength") return {};
+    if (value.floats.empty() || !(value.floats[0] > 0)) return {};
+    return value.floats[0] * value.floats[0];
 }
 
 void switch_light(const std::shared_ptr<const LightInstance>& light, bool on,

@@ -1,6 +1,7 @@
 /// What Attribute and Illuminate do to a state: also to that of an instance, whose object they stand in.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "pipeline/rib/state/graphics_state.h"
@@ -10,6 +11,10 @@ namespace trapeze::rib {
 /// Keeps the value for shaders, and sets what it stands for. Values that nothing here knows are only kept;
 /// "trimcurve" and "identifier" want more than a state, and are for the caller.
 void set_attribute_value(const std::string& category, const Parameter& value, AttributeState& state);
+
+/// The shading rate that a value stands for: the later RenderMan's "dice" "micropolygonlength", of a side in
+/// pixels.
+std::optional<float> shading_rate_of(const std::string& category, const Parameter& value);
 
 /// Illuminate. The order of the list is that in which lights were switched on, and of their sums.
 void switch_light(const std::shared_ptr<const LightInstance>& light, bool on,

@@ -57,8 +57,7 @@ Signature signature_of(const Builtin& builtin) {
 }
 
 /// Of a function of the source: as many arguments as it has parameters, without those that have default
-/// values. Views point into the
-/// function, which outlives the signature.
+/// values. Views point into the function, which outlives the signature.
 Signature signature_of(const Function& function) {
     Signature signature;
     signature.name = function.name;
