@@ -70,8 +70,7 @@ std::optional<NamedValue> find_default(const Attributes& a, std::string_view nam
 }
 
 /// The value that "category:name" asks for, in lists by category; without a category it is "user".
-std::optional<NamedValue> find_user_value(const std::map<std::string, ParameterList>& lists,
-                                          std::string_view name) {
+std::optional<NamedValue> find_user_value(const UserValues::Lists& lists, std::string_view name) {
     const size_t colon = name.find(':');
     const std::string category(colon == std::string_view::npos ? "user" : name.substr(0, colon));
     const auto list = lists.find(category);

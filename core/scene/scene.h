@@ -110,8 +110,8 @@ struct Options {
     std::shared_ptr<const ShaderInstance> glow;    ///< Imager "glow" (glow.h), beside an imager; null: none
     std::string hider = "hidden";
     ParameterList hider_parameters;
-    std::vector<Display> displays;              ///< the first is the primary one; others came with '+'
-    std::map<std::string, ParameterList> user;  ///< Option "category" "name" value, by category
+    std::vector<Display> displays;  ///< the first is the primary one; others came with '+'
+    UserValues::Lists user;         ///< Option "category" "name" value, by category
     std::map<std::string, std::vector<std::string>>
         search_paths;                     ///< by category; "." and the scene's folder included
     SourceLocation colors_location = {};  ///< of the last Option "ocio"

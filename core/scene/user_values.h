@@ -4,26 +4,70 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "core/scene/parameters.h"
 
 namespace trapeze {
 
+/// The values of a category, found by name: a file may set them by the ten thousand.
+class CategoryValues {
+  public:
+    const Parameter* find(std::string_view name) const {
+        const auto found = values_.find(name);
+        return found == values_.end() ? nullptr : &*found;
+    }
+    /// The first number or string of a value, or the fallback where it is missing or empty.
+    float float_or(std::string_view name, float fallback) const {
+        const Parameter* const value = find(name);
+        return value && !value->floats.empty() ? value->floats[0] : fallback;
+    }
+    std::string string_or(std::string_view name, std::string fallback) const {
+        const Parameter* const value = find(name);
+        return value && !value->strings.empty() ? value->strings[0] : fallback;
+    }
+    /// Replaces the value of the same name, or adds one.
+    void set(Parameter value) {
+        const auto place = values_.lower_bound(value.name);
+        if (place == values_.end() || place->name != value.name) {
+            values_.insert(place, std::move(value));
+            return;
+        }
+        auto node = values_.extract(place);
+        node.value() = std::move(value);
+        values_.insert(std::move(node));
+    }
+    /// In the order of names.
+    auto begin() const { return values_.begin(); }
+    auto end() const { return values_.end(); }
+
+  private:
+    struct ByName {
+        using is_transparent = void;
+        bool operator()(const Parameter& a, const Parameter& b) const { return a.name < b.name; }
+        bool operator()(const Parameter& a, std::string_view b) const { return a.name < b; }
+        bool operator()(std::string_view a, const Parameter& b) const { return a < b.name; }
+    };
+    std::set<Parameter, ByName> values_;
+};
+
 class UserValues {
   public:
-    using Lists = std::map<std::string, ParameterList>;
+    using Lists = std::map<std::string, CategoryValues>;
 
     const Lists& lists() const { return lists_ ? *lists_ : none(); }
     bool empty() const { return lists().empty(); }
     bool contains(const std::string& category) const { return lists().contains(category); }
     Lists::const_iterator find(const std::string& category) const { return lists().find(category); }
-    const ParameterList& at(const std::string& category) const { return lists().at(category); }
+    const CategoryValues& at(const std::string& category) const { return lists().at(category); }
     Lists::const_iterator begin() const { return lists().begin(); }
     Lists::const_iterator end() const { return lists().end(); }
 
     /// The list of a category, to be changed in these values alone.
-    ParameterList& change(const std::string& category) {
+    CategoryValues& change(const std::string& category) {
         if (!lists_)
             lists_ = std::make_shared<Lists>();
         else if (lists_.use_count() > 1)

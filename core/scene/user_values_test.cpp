@@ -9,6 +9,19 @@ Parameter user_value(float value) {
     return {"a", {StorageClass::Uniform, ValueType::Float, 1}, {value}, {}};
 }
 
+TEST(CategoryValues, LaterValuesOfANameReplaceEarlierOnes) {
+    CategoryValues values;
+    EXPECT_EQ(values.find("a"), nullptr);
+    values.set({"b", {StorageClass::Uniform, ValueType::String, 1}, {}, {"text"}});
+    values.set(user_value(1));
+    values.set(user_value(2));
+    EXPECT_EQ(values.find("a")->floats, std::vector<float>{2});
+    EXPECT_EQ(values.float_or("a", 0), 2);
+    EXPECT_EQ(values.float_or("b", 5), 5) << "it has no number";
+    EXPECT_EQ(values.string_or("b", ""), "text");
+    EXPECT_EQ(std::distance(values.begin(), values.end()), 2);
+}
+
 TEST(UserValues, CopiesDoNotSeeEachOthersChanges) {
     UserValues first;
     EXPECT_TRUE(first.empty());

@@ -28,7 +28,7 @@ std::string in_words(const Attributes& a) {
     words << a.dice.binary << a.dice.raster_oriented << a.dice.min_length << ' ' << a.motion_factor << ' '
           << a.focus_factor;
     for (const auto& [category, values] : a.user)
-        for (const Parameter& value : values.values) {
+        for (const Parameter& value : values) {
             words << ' ' << category << ':' << value.name << '=';
             for (const float number : value.floats) words << number;
             for (const std::string& text : value.strings) words << text;

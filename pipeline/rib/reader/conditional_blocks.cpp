@@ -28,7 +28,7 @@ ConditionValue value_of(const Parameter* parameter) {
 }
 
 /// "category:name"; a name alone is the user's.
-ConditionValue user_value(const std::map<std::string, ParameterList>& lists, const std::string& name) {
+ConditionValue user_value(const UserValues::Lists& lists, const std::string& name) {
     const size_t colon = name.find(':');
     const auto list = lists.find(colon == std::string::npos ? "user" : name.substr(0, colon));
     if (list == lists.end()) return {};

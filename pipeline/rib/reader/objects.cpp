@@ -76,8 +76,7 @@ std::shared_ptr<AttributeState> instance_attributes(const AttributeState& instan
     if (instance.own.definition() != 0) result->own.add(own);  // of the object that this one is put in
     Attributes& a = result->attributes;
     if (a.asset.empty()) a.asset = of_object.attributes.asset;
-    for (const AttributeValue& value : own.values())
-        set_attribute_value(value.category, value.value, *result);
+    for (const auto& [order, value] : own.values()) set_attribute_value(value.category, value.value, *result);
     for (const auto& [light, on] : own.switches()) switch_light(light, on, a.lights);
     take_own(of_object.attributes, own, a);
     take_own_shaders(of_object, camera_from_object, a);

@@ -28,22 +28,23 @@ bool replaces(const std::string& category, const Parameter& value, const Paramet
 
 }  // namespace
 
-const std::vector<AttributeValue>& OwnAttributes::values() const {
-    static const std::vector<AttributeValue> nothing;
-    return values_ ? *values_ : nothing;
+const OwnAttributes::Values& OwnAttributes::values() const {
+    static const Values nothing;
+    return record_ ? record_->values : nothing;
 }
 
-/// What a later value undoes is not kept: primitives may have names by the thousand.
 void OwnAttributes::set(const std::string& category, const Parameter& value) {
-    if (!values_)
-        values_ = std::make_shared<std::vector<AttributeValue>>();
-    else if (values_.use_count() > 1)
-        values_ = std::make_shared<std::vector<AttributeValue>>(*values_);
-    std::erase_if(*values_, [&](const AttributeValue& old) {
-        return old.value.name == value.name && old.category == category &&
-               replaces(category, value, old.value);
+    if (!record_)
+        record_ = std::make_shared<Record>();
+    else if (record_.use_count() > 1)
+        record_ = std::make_shared<Record>(*record_);
+    Record& record = *record_;
+    std::set<uint64_t>& same_name = record.of_name[category + '\n' + value.name];
+    std::erase_if(same_name, [&](uint64_t order) {
+        return replaces(category, value, record.values.at(order).value) && record.values.erase(order) != 0;
     });
-    values_->push_back({category, value});
+    same_name.insert(record.next);
+    record.values.emplace_hint(record.values.end(), record.next++, AttributeValue{category, value});
 }
 
 void OwnAttributes::switch_light(const std::shared_ptr<const LightInstance>& light, bool on) {
@@ -54,7 +55,7 @@ void OwnAttributes::switch_light(const std::shared_ptr<const LightInstance>& lig
 void OwnAttributes::add(const OwnAttributes& other) {
     if (other.restored_) *this = OwnAttributes(definition_, other.restored_);
     whole_ |= other.whole_;
-    for (const AttributeValue& value : other.values()) set(value.category, value.value);
+    for (const auto& [order, value] : other.values()) set(value.category, value.value);
     for (const auto& [light, on] : other.switches_) switch_light(light, on);
 }
 

@@ -3,7 +3,9 @@
 
 #include <bitset>
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -62,20 +64,29 @@ class OwnAttributes {
     uint64_t definition() const { return definition_; }
     const AttributeState* restored() const { return restored_.get(); }
     bool has(Own what) const { return whole_.test(static_cast<size_t>(what)); }
-    const std::vector<AttributeValue>& values() const;
+    /// By when they were set.
+    using Values = std::map<uint64_t, AttributeValue>;
+    const Values& values() const;
     const Switches& switches() const { return switches_; }
 
     void set(Own what) { whole_.set(static_cast<size_t>(what)); }
-    /// A value comes after those that were set before.
+    /// A value comes after those that were set before. What it undoes is not kept: primitives may have names
+    /// by the thousand.
     void set(const std::string& category, const Parameter& value);
     void switch_light(const std::shared_ptr<const LightInstance>& light, bool on);
     /// What a definition takes over from an instance of another object in it.
     void add(const OwnAttributes& other);
 
   private:
+    struct Record {
+        Values values;
+        uint64_t next = 0;
+        std::map<std::string, std::set<uint64_t>> of_name;  ///< by category and name: which of the values
+    };
+
     uint64_t definition_ = 0;
     std::bitset<kOwns> whole_;
-    std::shared_ptr<std::vector<AttributeValue>> values_;  ///< shared until one is set; null: none
+    std::shared_ptr<Record> record_;  ///< shared until a value is set; null: none
     Switches switches_;
     std::shared_ptr<const AttributeState> restored_;
 };

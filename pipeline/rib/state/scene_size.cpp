@@ -20,9 +20,10 @@ size_t bytes_of(const std::vector<std::string>& strings) {
 }
 
 /// Variables are most of a scene: points, normals and texture coordinates of its meshes.
-size_t bytes_of(const ParameterList& list) {
+template <class Parameters>
+size_t bytes_of_all(const Parameters& parameters) {
     size_t bytes = 0;
-    for (const Parameter& parameter : list.values)
+    for (const Parameter& parameter : parameters)
         bytes += sizeof(Parameter) + bytes_of(parameter.floats) + bytes_of(parameter.strings);
     return bytes;
 }
@@ -58,14 +59,14 @@ struct OfTopology {
 
 /// The shape with all that it owns.
 size_t bytes_of(const Shape& shape) {
-    return sizeof shape + std::visit(OfTopology(), shape.topology) + bytes_of(shape.variables);
+    return sizeof shape + std::visit(OfTopology(), shape.topology) + bytes_of_all(shape.variables.values);
 }
 
 size_t bytes_of(const Attributes& attributes) {
     size_t bytes = sizeof attributes + bytes_of(attributes.lights) + attributes.name.capacity() +
                    attributes.asset.capacity();
     for (const auto& [category, values] : attributes.user)
-        bytes += sizeof category + sizeof values + bytes_of(values);
+        bytes += sizeof category + sizeof values + bytes_of_all(values);
     return bytes;
 }
 
