@@ -10,6 +10,7 @@ namespace {
 
 TEST(OwnInstructionSet, IsTheOnlyOneInTheBuild) {
     EXPECT_EQ(compiled_simd_names(), std::vector<std::string_view>{"sse4"});
+    EXPECT_EQ(HWY_TARGETS, HWY_SSE4) << "no plain code, either";
 }
 
 TEST(OwnInstructionSet, OthersAreRefusedAsNotInTheBuild) {
@@ -22,7 +23,7 @@ TEST(OwnInstructionSet, OthersAreRefusedAsNotInTheBuild) {
 }
 
 TEST(OwnInstructionSet, IsWhatIsUsedOnABetterMachine) {
-    hwy::SetSupportedTargetsForTest(HWY_AVX3 | HWY_AVX2 | HWY_SSE4 | HWY_STATIC_TARGET);
+    hwy::SetSupportedTargetsForTest(HWY_AVX3 | HWY_AVX2 | HWY_SSE4);
     EXPECT_EQ(simd_limit(), "sse4");
     std::string error;
     EXPECT_TRUE(limit_simd("sse4", &error)) << error;
@@ -31,8 +32,10 @@ TEST(OwnInstructionSet, IsWhatIsUsedOnABetterMachine) {
     EXPECT_TRUE(limit_simd("best", &error)) << error;
 }
 
-TEST(OwnInstructionSet, IsNotUsedOnALesserMachine) {
-    hwy::SetSupportedTargetsForTest(HWY_STATIC_TARGET);
+TEST(OwnInstructionSet, IsMissedOnALesserMachine) {
+    EXPECT_EQ(lacking_simd(), "") << "any machine that runs the tests has it";
+    hwy::SetSupportedTargetsForTest(HWY_EMU128);
+    EXPECT_EQ(lacking_simd(), "sse4");
     EXPECT_EQ(simd_limit(), "best");
     std::string error;
     EXPECT_FALSE(limit_simd("sse4", &error));

@@ -50,6 +50,13 @@ std::vector<std::string_view> compiled_simd_names() {
     return names;
 }
 
+std::string_view lacking_simd() {
+    for (const NamedTarget& known : kTargets)
+        if ((HWY_STATIC_TARGET & known.target) && !(hwy::SupportedTargets() & known.target))
+            return known.name;
+    return {};
+}
+
 bool limit_simd(std::string_view name, std::string* error) {
     if (name == kBest) {
         hwy::DisableTargets(0);

@@ -13,9 +13,12 @@ namespace trapeze {
 std::vector<std::string_view> simd_names();
 
 /// Those of simd_names() that this build has vector code for, without "best": a build for the machine that
-/// makes it has one alone (cmake/InstructionSets.cmake). Where the machine has none of them, plain code runs
-/// instead.
+/// makes it has one alone (cmake/InstructionSets.cmake).
 std::vector<std::string_view> compiled_simd_names();
+
+/// The instruction set without which this build does not run, where the machine lacks it; else empty. A build
+/// of all sets has plain code, too, and runs everywhere.
+std::string_view lacking_simd();
 
 /// Vector code uses nothing better than the named instruction set from now on. False with *error set, and
 /// nothing changed, when there is no such name, or the machine or this build lacks it. Not while other

@@ -52,6 +52,15 @@ int run_program(int argc, char** argv, std::span<const CommandFunction> function
     if (arguments.safe) be_safe(arguments);
     Terminal terminal({progress_style(arguments.progress), arguments.color, arguments.quiet,
                        arguments.safe ? kMostSafeMessages : Terminal::Settings().most_messages});
+    if (const std::string_view lacking = lacking_simd(); !lacking.empty()) {
+        terminal.show({Severity::Error,
+                       "this program was built on a machine with " + std::string(lacking) +
+                           ", which this one lacks; remove build/release, and ./trapeze builds it anew",
+                       {},
+                       {},
+                       {}});
+        return kExitUsage;
+    }
     std::string wrong;
     if (!limit_simd(arguments.simd, &wrong)) {
         terminal.show({Severity::Error, "--simd: " + wrong, {}, {}, {}});

@@ -162,7 +162,7 @@ std::string version_text() {
     const std::vector<std::string_view> compiled = compiled_simd_names();
     for (const std::string_view name : compiled) text += " " + std::string(name);
     if (compiled.size() + 1 < simd_names().size())
-        text += compiled.empty() ? " none" : " (of the machine that built it; others use plain code)";
+        text += compiled.empty() ? " none" : " (of the machine that built it; it runs on no lesser one)";
     return text;
 }
 
