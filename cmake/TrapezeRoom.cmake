@@ -1,14 +1,11 @@
 # How many sources are compiled as one.
-set(TRAPEZE_SOURCES_AT_ONCE 24)
+set(TRAPEZE_SOURCES_AT_ONCE 48)
 
 # trapeze_compile_together(TARGET SOURCE ...)
 # Sources are one to the compiler, which then reads headers once for all of them: most of what it does. So names of
 # their own have to differ. Kernels stay alone, since each of their files is compiled again for every instruction set.
 # Precompiled headers beside this were tried, and left: 7 % less processor time (six sources, two at a time, in turns),
 # while g++ 12 compiles no kernel after precompiled intrinsics (half.h includes them), and warns of the library's own.
-# Optimisation is most of it, 38 of 52 s for all of pipeline/rib as one. -O1 with -O3's inlining and with loops as
-# vectors, for all but kernels, core and composite, took two thirds of the processor time; gallery/studio then took
-# 1.04 times as long to render and gallery/car as long as before (medians of three in turns, one thread).
 function(trapeze_compile_together target)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ${TRAPEZE_COMPILE_TOGETHER}
                                                UNITY_BUILD_BATCH_SIZE ${TRAPEZE_SOURCES_AT_ONCE})
@@ -17,7 +14,7 @@ function(trapeze_compile_together target)
             file(STRINGS ${source} kernel REGEX "include <hwy/(foreach_target|targets).h>" LIMIT_COUNT 1)
             if(kernel)
                 set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON
-                                            COMPILE_OPTIONS "${TRAPEZE_KERNEL_OPTIONS}")
+                                            COMPILE_OPTIONS "${TRAPEZE_KERNEL_OPTIMISATION};${TRAPEZE_KERNEL_OPTIONS}")
             endif()
         endif()
     endforeach()
@@ -50,15 +47,15 @@ function(trapeze_room_test name program tests links processes optimisation)
 endfunction()
 
 # trapeze_room(NAME SOURCES ... TESTS ... PICTURE_TESTS ... LINKS ... PRIVATE_LINKS ... PROCESSES N
-#              RARELY_RUN NO_LOOPS TESTS_COMPUTE)
+#              RARELY_RUN LOOPS TESTS_COMPUTE)
 # A room is one static library and, when tests are built, one test program made of the tests beside its sources; those
 # that read or write pictures by OpenImageIO are a program of their own, for its 250 libraries take half a second to
 # load. PROCESSES: how many share the room's tests. Includes are written from the root of the repository:
 # #include "core/grid.h". RARELY_RUN: what the room does is little beside what it has done, and the compiler needs not
-# look far. NO_LOOPS: it has none that -O3 makes faster, as measured. TESTS_COMPUTE: what its tests wait for
-# is in the tests, too.
+# look far. LOOPS: it has some, beside its kernels, that -O3 makes faster, as measured. TESTS_COMPUTE: what its tests
+# wait for is in the tests, too.
 function(trapeze_room name)
-    cmake_parse_arguments(ROOM "RARELY_RUN;NO_LOOPS;TESTS_COMPUTE" "PROCESSES"
+    cmake_parse_arguments(ROOM "RARELY_RUN;LOOPS;TESTS_COMPUTE" "PROCESSES"
                           "SOURCES;TESTS;PICTURE_TESTS;LINKS;PRIVATE_LINKS" ${ARGN})
     add_library(trapeze_${name} STATIC ${ROOM_SOURCES})
     trapeze_compile_together(trapeze_${name} ${ROOM_SOURCES})
@@ -66,8 +63,8 @@ function(trapeze_room name)
     target_link_libraries(trapeze_${name} PUBLIC ${ROOM_LINKS} PRIVATE ${ROOM_PRIVATE_LINKS})
     if(ROOM_RARELY_RUN)
         target_compile_options(trapeze_${name} PRIVATE ${TRAPEZE_RARELY_RUN_OPTIMISATION})
-    elseif(ROOM_NO_LOOPS)
-        target_compile_options(trapeze_${name} PRIVATE $<$<CONFIG:Release>:-O2>)
+    elseif(NOT ROOM_LOOPS)
+        target_compile_options(trapeze_${name} PRIVATE "${TRAPEZE_OPTIMISATION}")
     endif()
     set(optimisation ${TRAPEZE_TEST_OPTIMISATION})
     if(ROOM_TESTS_COMPUTE)

@@ -9,9 +9,6 @@ namespace {
 
 constexpr double kEverywhere = std::numeric_limits<double>::infinity();
 
-/// Samples lie this far outside the image at most (filters).
-constexpr double kBorderPixels = 1024;
-
 /// Along one axis, in the image plane at depth 1 (perspective) or in camera space (orthographic); doubles, so
 /// that only the predicate's own rounding has to be covered.
 struct PlaneRange {
@@ -29,10 +26,10 @@ PlaneRange raster_range(PlaneRange plane, double grow, double scale, double offs
 /// How far from the axis, at depth 1, any ray of the picture and its border can be; the lens moves it by its
 /// radius over the distance of focus.
 double ray_reach(const Camera& camera) {
-    const double x =
-        std::abs(camera.plane_scale_x) * (camera.width + kBorderPixels) + std::abs(camera.plane_offset_x);
-    const double y =
-        std::abs(camera.plane_scale_y) * (camera.height + kBorderPixels) + std::abs(camera.plane_offset_y);
+    const double x = std::abs(camera.plane_scale_x) * (camera.width + kMostPixelsOutside) +
+                     std::abs(camera.plane_offset_x);
+    const double y = std::abs(camera.plane_scale_y) * (camera.height + kMostPixelsOutside) +
+                     std::abs(camera.plane_offset_y);
     return std::max(x, y) + camera.lens_radius * (1 + kRasterRounding) / camera.focal_distance;
 }
 

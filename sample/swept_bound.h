@@ -12,6 +12,9 @@ inline constexpr double kBoundable = 1e15;
 /// Relative rounding of the predicate and of the rays, with much to spare.
 inline constexpr double kRasterRounding = 0x1p-18;
 
+/// Pixels that samples may lie outside the image (filters).
+inline constexpr double kMostPixelsOutside = 1024;
+
 /// The largest coordinate of the image plane that a sample may have, the lens' part of slopes included.
 double ray_reach(const Camera& camera);
 

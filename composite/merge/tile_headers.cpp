@@ -80,7 +80,7 @@ Imf::Header header_of(const std::string& path) {
     }
 }
 
-bool is_deep(const Imf::Header& header) {
+bool has_deep_samples(const Imf::Header& header) {
     return header.hasType() && header.type() == Imf::DEEPSCANLINE;
 }
 
@@ -98,7 +98,7 @@ void TileHeaders::add(const std::string& path) {
 
 void TileHeaders::add_first(const Imf::Header& header) {
     first_ = header;
-    is_deep_ = trapeze::is_deep(header);
+    is_deep_ = has_deep_samples(header);
     for (auto attribute = header.begin(); attribute != header.end(); ++attribute)
         values_[attribute.name()] = value_of(attribute.attribute());
 }
@@ -109,7 +109,7 @@ void TileHeaders::compare_with_first(const TileFile& file, const Imf::Header& he
         throw MergeError(MergeOutcome::NoPicture, fmt::format("\"{}\" and \"{}\" are not of one picture: {}",
                                                               first.path, file.path, reason));
     };
-    if (trapeze::is_deep(header) != is_deep_) refuse("one is deep, the other is not");
+    if (has_deep_samples(header) != is_deep_) refuse("one is deep, the other is not");
     for (const std::string_view name : kOfThePicture) {
         const auto own = header.find(std::string(name).c_str());
         const auto known = values_.find(std::string(name));

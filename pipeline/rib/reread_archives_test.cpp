@@ -9,7 +9,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr const char* kPatch = "Patch \"bilinear\" \"P\" [0 0 0 1 0 0 0 1 0 1 1 0] ";
+constexpr const char* kOnePatch = "Patch \"bilinear\" \"P\" [0 0 0 1 0 0 0 1 0 1 1 0] ";
 
 struct ArchiveFolder {
     Folder folder;
@@ -24,7 +24,7 @@ const std::string kRead = "ReadArchive \"part.rib\" ";
 
 TEST(RereadArchives, TheSameShapesAreThereOnce) {
     const ArchiveFolder files(std::string("AttributeBegin Color 1 0 0 Geometry \"teapot\" AttributeEnd ") +
-                              kPatch);
+                              kOnePatch);
     const ReadOutcome r =
         files.read("WorldBegin " + kRead + "Color 0 0 1 Translate 0 0 5 " + kRead + "WorldEnd");
     EXPECT_THAT(r.messages, IsEmpty());
@@ -35,13 +35,13 @@ TEST(RereadArchives, TheSameShapesAreThereOnce) {
     EXPECT_EQ(r.attributes(65).color, V3f(0, 0, 1));
     EXPECT_EQ(r.attributes(33).color, V3f(1, 0, 0));
     EXPECT_EQ(r.primitive(65).camera_from_object[0].translation().z, 5);
-    const ReadOutcome again = read_world(std::string("ArchiveBegin \"a\" ") + kPatch +
+    const ReadOutcome again = read_world(std::string("ArchiveBegin \"a\" ") + kOnePatch +
                                          "ArchiveEnd ReadArchive \"a\" ReadArchive \"a\" ");
     EXPECT_EQ(again.primitive(0).shape_keys, again.primitive(1).shape_keys);
 }
 
 TEST(RereadArchives, PosesOfAMotionAreSharedToo) {
-    const ArchiveFolder files(std::string("MotionBegin [0 1] ") + kPatch +
+    const ArchiveFolder files(std::string("MotionBegin [0 1] ") + kOnePatch +
                               "Patch \"bilinear\" \"P\" [0 0 1 1 0 1 0 1 1 1 1 1] MotionEnd");
     const ReadOutcome r = files.read("Shutter 0 1 WorldBegin " + kRead + kRead + "WorldEnd");
     ASSERT_EQ(r.count(), 2u);
@@ -130,7 +130,7 @@ TEST(RereadArchives, FilesThatChangeAreReadAnew) {
 TEST(RereadArchives, ArchivesInThemAreReadAsEver) {
     const ArchiveFolder files("ArchiveBegin \"in\" " + kSphere +
                               "ArchiveEnd ReadArchive \"in\" ReadArchive \"b.rib\"");
-    files.folder.write("b.rib", kPatch);
+    files.folder.write("b.rib", kOnePatch);
     const ReadOutcome r = files.read("WorldBegin " + kRead + kRead + "WorldEnd");
     EXPECT_THAT(r.messages, IsEmpty());
     ASSERT_EQ(r.count(), 4u);

@@ -9,16 +9,14 @@
 #include "accel/wide/rays/single_ray.h"
 #include "sample/hit_lists.h"
 #include "sample/raytrace/sample_order.h"
+#include "sample/swept_bound.h"
 
 namespace trapeze {
 namespace {
 
-/// Samples lie this far outside the image at most (filters).
-constexpr float kBorderPixels = 1024;
-
 /// The largest coordinate of the image plane, along one axis, that a sample may have.
 float plane_reach(float scale, float offset, int pixels) {
-    const float border = std::abs(scale) * kBorderPixels;
+    const float border = std::abs(scale) * static_cast<float>(kMostPixelsOutside);
     return std::max(std::abs(offset), std::abs(offset + scale * static_cast<float>(pixels))) + border;
 }
 

@@ -66,17 +66,18 @@ class Given {
     const ShaderInstance& instance_;
 };
 
-enum class Kind { Ambient, Distant, Point, Spot };
+enum class LightKind { Ambient, Distant, Point, Spot };
 
 /// The kind of light that a missing shader most likely was, by its name first, then by its parameters.
-Kind kind_of(std::string_view name, const Given& given) {
+LightKind kind_of(std::string_view name, const Given& given) {
     if (has_any(name, {"ambient", "environment", "envlight", "occl", "indirect", "dome", "sky", "image"}))
-        return Kind::Ambient;
-    if (has_any(name, {"distant", "direction", "infinite", "parallel", "sun", "solar"})) return Kind::Distant;
+        return LightKind::Ambient;
+    if (has_any(name, {"distant", "direction", "infinite", "parallel", "sun", "solar"}))
+        return LightKind::Distant;
     if (has_any(name, {"spot", "cone", "projector", "slide"}) || given.number({"coneangle", "hotspot"}))
-        return Kind::Spot;
-    if (has_any(name, {"point", "omni", "area", "bulb"})) return Kind::Point;
-    return given.find({"from"}, 3) && given.find({"to"}, 3) ? Kind::Distant : Kind::Point;
+        return LightKind::Spot;
+    if (has_any(name, {"point", "omni", "area", "bulb"})) return LightKind::Point;
+    return given.find({"from"}, 3) && given.find({"to"}, 3) ? LightKind::Distant : LightKind::Point;
 }
 
 /// Builds the standard light, in the missing one's place and space.
@@ -123,22 +124,22 @@ float half_cone(float angle) {
 
 ShaderInstance stand_in_light(const ShaderInstance& missing) {
     const Given given(missing);
-    const Kind kind = kind_of(plain(missing.name), given);
+    const LightKind kind = kind_of(plain(missing.name), given);
     const std::string shadow_map = given.shadow_map();
-    const char* const name = kind == Kind::Ambient   ? "ambientlight"
-                             : kind != Kind::Distant ? "standinlight"
-                             : shadow_map.empty()    ? "distantlight"
-                                                     : "shadowdistant";
+    const char* const name = kind == LightKind::Ambient   ? "ambientlight"
+                             : kind != LightKind::Distant ? "standinlight"
+                             : shadow_map.empty()         ? "distantlight"
+                                                          : "shadowdistant";
     Maker maker(missing, name);
     maker.take("intensity", {"intensity", "lightintensity", "energy"}, ValueType::Float);
     maker.take("lightcolor", {"lightcolor", "lightcolour", "color", "colour", "cl"}, ValueType::Color);
-    if (kind == Kind::Ambient) return std::move(maker).made();
+    if (kind == LightKind::Ambient) return std::move(maker).made();
     maker.take("from", {"from"}, ValueType::Point);
     maker.take("to", {"to"}, ValueType::Point);
     maker.set_shadow_map(shadow_map);
-    if (kind == Kind::Distant) return std::move(maker).made();
+    if (kind == LightKind::Distant) return std::move(maker).made();
     maker.set("falloff", ValueType::Float, {falloff(plain(missing.name), given)});
-    if (kind == Kind::Point) return std::move(maker).made();
+    if (kind == LightKind::Point) return std::move(maker).made();
     maker.set("spot", ValueType::Float, {1});
     if (const auto angle = given.number({"coneangle"})) {
         maker.set("coneangle", ValueType::Float, {half_cone(*angle)});

@@ -5,7 +5,7 @@
 namespace trapeze {
 namespace {
 
-constexpr int kMostFaces = 64;  ///< that are looked at
+constexpr int kMostFacesLookedAt = 64;
 /// Pixels of blur that double the shading rate.
 constexpr float kPixelsOfBlur = 16;
 
@@ -31,7 +31,7 @@ float blur_factor(const PlacedSurface& surface, const Camera& camera, const Scre
     EvaluationScratch scratch;
     std::vector<V3f> P(kPlaces.size() * keys), point(keys);
     float least = kInfinity;
-    const int step = std::max(1, faces / kMostFaces);
+    const int step = std::max(1, faces / kMostFacesLookedAt);
     for (int face = 0; face < faces; face += step) {
         surface.positions(face, kPlaces, keys, scratch, P);
         for (size_t i = 0; i < kPlaces.size(); ++i) {

@@ -10,11 +10,11 @@ namespace {
 
 /// Pieces at once: loops over lanes are what compilers vectorise.
 constexpr size_t kLanes = 8;
-using Lanes = std::array<float, kLanes>;
+using FloatLanes = std::array<float, kLanes>;
 
 /// Points in lanes; those behind the last are as the last.
 struct PointLanes {
-    Lanes x, y, z;
+    FloatLanes x, y, z;
 
     explicit PointLanes(std::span<const V3f> points) {
         for (size_t l = 0; l < kLanes; ++l) {
@@ -76,7 +76,7 @@ void ScreenMetric::perspective_lengths(std::span<const V3f> from, std::span<cons
                                        std::span<PixelLength> lengths) const {
     const PointLanes p(from), q(to);
     const float least = view_cosine_ * view_cosine_;
-    Lanes seen, square_on;
+    FloatLanes seen, square_on;
     std::array<int32_t, kLanes> in_view;
     for (size_t l = 0; l < kLanes; ++l) {
         const float pp = p.x[l] * p.x[l] + p.y[l] * p.y[l] + p.z[l] * p.z[l];

@@ -8,7 +8,7 @@
 namespace trapeze {
 namespace {
 
-using Kind = BlobbyInstruction::Kind;
+using BlobbyKind = BlobbyInstruction::Kind;
 
 /// Sixteen floats of the request, row by row.
 M44f matrix_at(const std::vector<float>& floats, size_t at) {
@@ -76,9 +76,10 @@ float ground_step(std::span<const BlobbyLeaf> leaves) {
 /// Subtract takes its second operand from its first, divide divides its first by its second. (RISpec's
 /// table 5.3 names subtract's operands the other way about, and PRMan's Application Note 31 exchanges the
 /// numbers 4 and 5; what programs write, and other renderers do, is this.)
-Kind operator_kind(int code) {
-    constexpr Kind kKinds[] = {Kind::Add,      Kind::Multiply, Kind::Maximum, Kind::Minimum,
-                               Kind::Subtract, Kind::Divide,   Kind::Negate,  Kind::Same};
+BlobbyKind operator_kind(int code) {
+    constexpr BlobbyKind kKinds[] = {BlobbyKind::Add,     BlobbyKind::Multiply, BlobbyKind::Maximum,
+                                     BlobbyKind::Minimum, BlobbyKind::Subtract, BlobbyKind::Divide,
+                                     BlobbyKind::Negate,  BlobbyKind::Same};
     return kKinds[code];
 }
 
@@ -88,19 +89,19 @@ FieldValue scaled(const FieldValue& f, float s) {
 
 /// What an operator makes of two values, with gradients by the rules of differentiation. A quotient by 0
 /// counts as 0.
-FieldValue combined(Kind kind, const FieldValue& a, const FieldValue& b) {
+FieldValue combined(BlobbyKind kind, const FieldValue& a, const FieldValue& b) {
     switch (kind) {
-        case Kind::Add:
+        case BlobbyKind::Add:
             return {a.value + b.value, a.gradient + b.gradient};
-        case Kind::Multiply:
+        case BlobbyKind::Multiply:
             return {a.value * b.value, a.gradient * b.value + b.gradient * a.value};
-        case Kind::Maximum:
+        case BlobbyKind::Maximum:
             return a.value >= b.value ? a : b;
-        case Kind::Minimum:
+        case BlobbyKind::Minimum:
             return a.value <= b.value ? a : b;
-        case Kind::Subtract:
+        case BlobbyKind::Subtract:
             return {a.value - b.value, a.gradient - b.gradient};
-        case Kind::Divide:
+        case BlobbyKind::Divide:
             if (b.value == 0) return {};
             return {a.value / b.value, (a.gradient - b.gradient * (a.value / b.value)) / b.value};
         default:
@@ -164,15 +165,15 @@ FieldValue BlobbyProgram::at(const V3f& p, std::span<const BlobbyLeaf> leaves,
     results.resize(instructions.size());
     for (size_t i = 0; i < instructions.size(); ++i) {
         const BlobbyInstruction& in = instructions[i];
-        if (in.kind == Kind::Leaf)
+        if (in.kind == BlobbyKind::Leaf)
             results[i] = leaves[in.leaf].at(p);
-        else if (in.kind == Kind::Constant)
+        else if (in.kind == BlobbyKind::Constant)
             results[i] = {in.constant, {0, 0, 0}};
         else {
             const int* const from = operands.data() + in.first_operand;
             FieldValue value = results[from[0]];
             for (int k = 1; k < in.operand_count; ++k) value = combined(in.kind, value, results[from[k]]);
-            results[i] = in.kind == Kind::Negate ? scaled(value, -1) : value;
+            results[i] = in.kind == BlobbyKind::Negate ? scaled(value, -1) : value;
         }
     }
     return results.back();
@@ -193,16 +194,16 @@ BlobbyProgram BlobbyProgram::reduced(std::span<const int> leaves) const {
     std::vector<int> constant_number(instructions.size(), -1);
     const auto as_number = [&](int i) {
         if (number[i] >= 0) return number[i];
-        if (constant_number[i] < 0) constant_number[i] = emit({Kind::Constant, 0, constant[i], 0, 0});
+        if (constant_number[i] < 0) constant_number[i] = emit({BlobbyKind::Constant, 0, constant[i], 0, 0});
         return constant_number[i];
     };
     for (size_t i = 0; i < instructions.size(); ++i) {
         const BlobbyInstruction& in = instructions[i];
-        if (in.kind == Kind::Constant) {
+        if (in.kind == BlobbyKind::Constant) {
             constant[i] = in.constant;
             continue;
         }
-        if (in.kind == Kind::Leaf) {
+        if (in.kind == BlobbyKind::Leaf) {
             if (std::ranges::binary_search(leaves, in.leaf)) number[i] = emit(in);
             continue;
         }
@@ -212,12 +213,13 @@ BlobbyProgram BlobbyProgram::reduced(std::span<const int> leaves) const {
             FieldValue value{constant[from[0]], {0, 0, 0}};
             for (size_t k = 1; k < from.size(); ++k)
                 value = combined(in.kind, value, {constant[from[k]], {0, 0, 0}});
-            constant[i] = in.kind == Kind::Negate ? -value.value : value.value;
+            constant[i] = in.kind == BlobbyKind::Negate ? -value.value : value.value;
             continue;
         }
         std::vector<int> kept;
         for (const int k : from)
-            if (in.kind != Kind::Add || number[k] >= 0 || constant[k] != 0) kept.push_back(as_number(k));
+            if (in.kind != BlobbyKind::Add || number[k] >= 0 || constant[k] != 0)
+                kept.push_back(as_number(k));
         BlobbyInstruction copy = in;
         copy.first_operand = static_cast<int>(out.operands.size());
         copy.operand_count = static_cast<int>(kept.size());
@@ -225,7 +227,7 @@ BlobbyProgram BlobbyProgram::reduced(std::span<const int> leaves) const {
         number[i] = emit(copy);
     }
     // The result comes last.
-    if (!instructions.empty() && number.back() < 0) emit({Kind::Constant, 0, constant.back(), 0, 0});
+    if (!instructions.empty() && number.back() < 0) emit({BlobbyKind::Constant, 0, constant.back(), 0, 0});
     return out;
 }
 
@@ -237,7 +239,7 @@ BlobbyField blobby_field(const Blobby& blobby, const FindGround& find_ground) {
         const int op = code[at++];
         BlobbyInstruction in;
         if (op >= 1000) {
-            in.kind = Kind::Leaf;
+            in.kind = BlobbyKind::Leaf;
             in.leaf = static_cast<int>(field.leaves.size());
             if (op == 1003) {
                 const std::string& name = blobby.strings[code[at++]];
@@ -253,7 +255,7 @@ BlobbyField blobby_field(const Blobby& blobby, const FindGround& find_ground) {
             if (leaf.ground) {
                 field.grounds.push_back(in.leaf);
             } else if (!leaf.ends) {
-                in.kind = Kind::Constant;
+                in.kind = BlobbyKind::Constant;
                 in.constant = leaf.constant;
             }
         } else {
