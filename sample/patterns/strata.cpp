@@ -71,6 +71,18 @@ float place(uint32_t index, float jitter, int count) {
     return std::min((static_cast<float>(index) + jitter) / static_cast<float>(count), kBelowOne);
 }
 
+/// Both parts in one word, for runs of pixels look turns up: what is flipped below, how far blocks move
+/// above.
+uint32_t turn_of(uint32_t bits, uint32_t count, uint32_t block) {
+    const uint32_t flip = bits & (block - 1), along = (bits >> 8) % (count / block) * block;
+    return flip | along << 16;
+}
+
+uint32_t turned(uint32_t region, uint32_t turn, uint32_t count) {
+    const uint32_t moved = (region ^ (turn & 0xffffu)) + (turn >> 16);
+    return moved < count ? moved : moved - count;
+}
+
 /// The largest float below pixel + 1: a jittered place that rounds up to the next pixel is held back to it.
 /// Neighbouring floats are neighbouring integers by their bits.
 float last_place_of(int pixel) {

@@ -44,6 +44,14 @@ V2f disk_from_square(float u, float v);
 /// rounds.
 float place(uint32_t index, float jitter, int count);
 
+/// How the columns of a pixel's regions, or its rows, change places: within blocks of `block`, which is a
+/// power of two and divides `count`, by an exclusive or, and the blocks by moving them along, the last ones
+/// to the front. `bits`: random; over all of them each region comes to each place alike. For turned().
+uint32_t turn_of(uint32_t bits, uint32_t count, uint32_t block);
+
+/// The place of column or row `region` of `count`.
+uint32_t turned(uint32_t region, uint32_t turn, uint32_t count);
+
 /// The greatest place of a pixel: the next one's is just above.
 float last_place_of(int pixel);
 

@@ -87,8 +87,10 @@ struct ScalarSample {
         const auto i = static_cast<uint32_t>(sample);
         const uint32_t pixel = hash(frame.context.seed, static_cast<uint32_t>(px), static_cast<uint32_t>(py));
         const auto jitter = [own = hash(pixel + i)](SampleDimension d) { return unit_float(hash(own + d)); };
-        x = within_pixel(px, place(i % nx, jitter(kSubpixelX), static_cast<int>(nx)));
-        y = within_pixel(py, place(i / nx, jitter(kSubpixelY), ny));
+        const uint32_t column = turned(i % nx, pattern.turn_x(pixel), nx),
+                       row = turned(i / nx, pattern.turn_y(pixel), static_cast<uint32_t>(ny));
+        x = within_pixel(px, place(column, jitter(kSubpixelX), static_cast<int>(nx)));
+        y = within_pixel(py, place(row, jitter(kSubpixelY), ny));
         const uint32_t region = pattern.lens_region_of(sample);
         if (frame.context.camera.has_lens())
             lens = shape.from_square(place(region % nx, jitter(kLensU), static_cast<int>(nx)),
@@ -174,6 +176,7 @@ TEST(StratifiedPattern, WithoutJitterSamplesLieInTheMiddlesOfTheirRegions) {
     Scene scene;
     scene.options.hider_parameters.set({"jitter", {}, {0}, {}});
     frame.context.scene = &scene;
+    frame.context.motion = false, frame.context.camera.lens_radius = 0;  // pixels turn where these matter
     const SampleTile tile = tile_of(frame, {3, 5, 5, 6});
     ASSERT_EQ(tile.size(), 16u);
     for (size_t i = 0; i < tile.size(); ++i) {
@@ -181,6 +184,88 @@ TEST(StratifiedPattern, WithoutJitterSamplesLieInTheMiddlesOfTheirRegions) {
                         3 + static_cast<float>(i / 8) + 0.125f + 0.25f * static_cast<float>(i % 4));
         EXPECT_FLOAT_EQ(tile.y[i], 5.25f + 0.5f * static_cast<float>(i / 4 % 2));
     }
+}
+
+TEST(Strata, TurnsTakeEachRegionToEachPlaceAlikeAndKeepBlocks) {
+    for (const auto& [count, block] :
+         {std::pair{1u, 1u}, {2u, 1u}, {7u, 1u}, {8u, 2u}, {12u, 4u}, {16u, 4u}}) {
+        std::vector<int> seen(count * count);
+        for (uint32_t bits = 0; bits < 256 * count; ++bits) {
+            const uint32_t turn = turn_of(bits, count, block);
+            std::set<uint32_t> places, blocks;
+            for (uint32_t region = 0; region < count; ++region) {
+                const uint32_t at = turned(region, turn, count);
+                ASSERT_LT(at, count);
+                places.insert(at), blocks.insert(region / block * count + at / block);
+                ++seen[region * count + at];
+            }
+            ASSERT_EQ(places.size(), count);
+            ASSERT_EQ(blocks.size(), count / block);
+        }
+        for (const int n : seen) ASSERT_EQ(n, 256) << count;
+    }
+}
+
+/// The share of a pixel's samples for which `is_seen` holds, over many pixels: its mean and its spread.
+struct Share {
+    double mean = 0, deviation = 0;
+
+    template <class Seen>
+    Share(const SampleTile& tile, const Seen& is_seen) {
+        const auto count = static_cast<size_t>(tile.samples_per_pixel), pixels = tile.size() / count;
+        double sum = 0, squares = 0;
+        for (size_t pixel = 0; pixel < pixels; ++pixel) {
+            int seen = 0;
+            for (size_t i = pixel * count; i < (pixel + 1) * count; ++i)
+                seen += is_seen(tile.x[i] - std::floor(tile.x[i]), tile.y[i] - std::floor(tile.y[i]), i);
+            const double share = static_cast<double>(seen) / static_cast<double>(count);
+            sum += share, squares += share * share;
+        }
+        mean = sum / static_cast<double>(pixels);
+        deviation = std::sqrt(std::max(0.0, squares / static_cast<double>(pixels) - mean * mean));
+    }
+};
+
+/// The left half of a pixel covered by what is blurred over a pixel by the lens: closed form by the strip of
+/// a disk of radius 1, integrated over the pixel. The same for all directions in which the edge may lie,
+/// since disks have none, and pixels little.
+TEST(StratifiedPattern, DefocusIsRightAndItsNoiseFallsFasterThanRandom) {
+    const auto strip = [](double at) {  // of the unit disk's area, left of `at`
+        return at <= -1 ? 0 : at >= 1 ? 1 : .5 + (at * std::sqrt(1 - at * at) + std::asin(at)) / M_PI;
+    };
+    double right = 0;
+    for (int i = 0; i < 4000; ++i) right += strip((.1 - ((i + .5) / 4000 - .5))) / 4000;
+    for (const int n : {2, 3, 4, 6, 8, 12, 16}) {
+        const TestFrame frame = frame_of_samples(n, n, false, true);
+        const SampleTile tile = tile_of(frame, {0, 0, 64, 64});
+        const Share across(tile, [&](float x, float, size_t i) { return x - .5f + tile.lens_u[i] < .1f; });
+        const Share along(tile, [&](float, float y, size_t i) { return y - .5f + tile.lens_v[i] < .1f; });
+        const double random = std::sqrt(right * (1 - right)) / n, error = 4 * random / 64;
+        EXPECT_NEAR(across.mean, right, error) << n;
+        EXPECT_NEAR(along.mean, right, error) << n;
+        if (n < 8) continue;
+        EXPECT_LT(across.deviation, random / 2) << n;
+        EXPECT_LT(along.deviation, random / 2) << n;
+    }
+}
+
+/// An edge that moves by a pixel and ends .1 beyond the middle of its way, each way and askew.
+TEST(StratifiedPattern, MotionIsRightAndItsNoiseFallsFasterThanRandom) {
+    // x + t < 1.1 for x and t in [0, 1): all but a triangle of legs .9.
+    const double right = 1 - .9 * .9 / 2;
+    for (const int n : {2, 3, 4, 6, 8, 12, 16})
+        for (const bool lens : {false, true}) {
+            const TestFrame frame = frame_of_samples(n, n, true, lens);
+            const SampleTile tile = tile_of(frame, {0, 0, 64, 64});
+            const Share across(tile, [&](float x, float, size_t i) { return x + tile.time[i] < 1.1f; });
+            const Share along(tile, [&](float, float y, size_t i) { return y + tile.time[i] < 1.1f; });
+            const double random = std::sqrt(right * (1 - right)) / n, error = 4 * random / 64;
+            EXPECT_NEAR(across.mean, right, error) << n;
+            EXPECT_NEAR(along.mean, right, error) << n;
+            if (n < 8) continue;
+            EXPECT_LT(across.deviation, random / 2) << n;
+            EXPECT_LT(along.deviation, random / 2) << n;
+        }
 }
 
 /// Over many pixels each lens region meets each time region alike.
