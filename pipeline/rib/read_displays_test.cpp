@@ -38,7 +38,7 @@ TEST(ReadDisplays, ModesDeclareVariables) {
 
 TEST(ReadDisplays, ModesNameVariablesWhoseTypesAreKnown) {
     expect_variable(variable_of("N"), "N", ValueType::Normal);
-    expect_variable(variable_of("Ci"), "Ci", ValueType::Color);
+    expect_variable(variable_of("color Ci"), "Ci", ValueType::Color);
     expect_variable(variable_of("s"), "s", ValueType::Float);
     expect_variable(variable_of("foo", "Declare \"foo\" \"varying vector\""), "foo", ValueType::Vector);
     expect_variable(variable_of("foo", "DisplayChannel \"varying color foo\""), "foo", ValueType::Color);

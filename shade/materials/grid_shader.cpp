@@ -85,14 +85,6 @@ void set_variable(const Loader& loader, vm::Registers& registers, const vm::Star
         case Predefined::P:
         case Predefined::Ps:
             return loader.load_P(out);
-        case Predefined::I: {
-            // From the eye to P, or from where a ray begins; along the view when the projection is
-            // orthographic.
-            if (loader.are_seen_by_rays()) return loader.load(out, &ShadingGrid::I);
-            if (context.camera.perspective) return loader.load_P(out);
-            const float along[3] = {0, 0, 1};
-            return registers.set_uniform(value.id, along);
-        }
         case Predefined::N:
             return loader.load(out, &ShadingGrid::N);
         case Predefined::Ng:
@@ -138,6 +130,9 @@ void set_variable(const Loader& loader, vm::Registers& registers, const vm::Star
         }
         case Predefined::RayOrigin:
             return load_ray_origin(loader, out, context.camera.perspective);
+        // From the eye to P, or from where a ray begins; from the plane of the eye when the projection is
+        // orthographic. As long as that way, which is what light goes through an atmosphere [RISpec, fog].
+        case Predefined::I:
         case Predefined::RayWay: {
             if (loader.are_seen_by_rays()) return loader.load(out, &ShadingGrid::I);
             if (context.camera.perspective) return loader.load_P(out);

@@ -173,6 +173,15 @@ TEST(Builtins, Derivatives) {
     expect_values(
         "r = filterstep(0.5, s);",
         [](float s, float) { return std::clamp((s + 1.0f / 6 - 0.5f) * 3, 0.0f, 1.0f); }, 1e-5f);
+    // A width of its own at each vertex, by either name.
+    for (const char* name : {"width", "swidth"})
+        expect_values(
+            "r = filterstep(0.5, s, \"" + std::string(name) + "\", 1 + 2 * s);",
+            [](float s, float) {
+                const float width = (1 + 2 * s) / 3;
+                return std::clamp((s + width / 2 - 0.5f) / width, 0.0f, 1.0f);
+            },
+            1e-5f);
     expect_values(
         "r = filterstep(0.5, s - 0.25, s + 0.25);",
         [](float s, float) { return std::clamp((s + 0.25f - 0.5f) / 0.5f, 0.0f, 1.0f); }, 1e-5f);

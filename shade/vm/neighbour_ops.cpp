@@ -92,8 +92,8 @@ void filter_width(Run& run, const Operand& x, const Operand& out) {
         out.data[i] = std::abs(out.data[i] * f.du[i]) + std::abs(by_v[i] * f.dv[i]);
 }
 
-/// edge, x [, x2] [, name, value, ...]; of the named ones, "width" counts. A uniform x has no width: the step
-/// is then a sharp one, as step() has it.
+/// edge, x [, x2] [, name, value, ...]; of the named ones, "width" counts, also as "swidth". A uniform x has
+/// no width: the step is then a sharp one, as step() has it.
 void filtered_step(Run& run, const Step& step, std::span<const Operand> operands) {
     const auto is_text = [&](size_t i) {
         return run.registers().reg(run.registers().register_of(step, i)).type.base == rsl::Base::String;
@@ -101,11 +101,12 @@ void filtered_step(Run& run, const Step& step, std::span<const Operand> operands
     const size_t lanes = operands[0].lane_mask ? run.lanes() : kLanes;
     if (step.count > 3 && !is_text(3))
         return filter_step_between(lanes, operands[1], operands[2], operands[3], operands[0]);
-    float scale = 1;
-    for (size_t i = 3; i + 1 < step.count; i += 2)
-        if (is_text(i) && !is_text(i + 1) &&
-            run.registers().text(run.registers().register_of(step, i)) == "width")
-            scale = operands[i + 1].data[0];
+    const Operand* scales = nullptr;
+    for (size_t i = 3; i + 1 < step.count; i += 2) {
+        if (!is_text(i) || is_text(i + 1)) continue;
+        const std::string& name = run.registers().text(run.registers().register_of(step, i));
+        if (name == "width" || name == "swidth") scales = &operands[i + 1];
+    }
     Operand widths;
     widths.data = run.scratch(1);
     widths.lane_mask = ~size_t{0};
@@ -113,6 +114,11 @@ void filtered_step(Run& run, const Step& step, std::span<const Operand> operands
         filter_width(run, operands[2], widths);
     else
         std::fill_n(widths.data, run.lanes(), 0.0f);
+    float scale = 1;
+    if (scales && scales->lane_mask)
+        for (size_t i = 0; i < run.lanes(); ++i) widths.data[i] *= scales->data[i];
+    else if (scales)
+        scale = scales->data[0];
     filter_step(lanes, operands[1], operands[2], widths, scale, operands[0]);
 }
 

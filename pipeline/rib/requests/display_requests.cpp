@@ -54,9 +54,10 @@ std::optional<DisplayVariable> variable_named(OptionContext& r, const std::strin
 }
 
 /// The modes of a Display's mode: one, or PRMan's "Ci,a,albedo", a list of channels. The picture's own among
-/// these are one mode, the first, as RISpec writes it.
+/// these are one mode, the first, as RISpec writes it. "Ci" is another name of "rgb": the picture's, after
+/// exposure and imager.
 std::vector<std::string> modes_of(const std::string& mode) {
-    if (mode.find(',') == std::string::npos) return {mode};
+    if (mode.find(',') == std::string::npos) return {mode == "Ci" ? "rgb" : mode};
     std::string picture;
     std::vector<std::string> modes;
     for (size_t begin = 0; begin <= mode.size();) {
