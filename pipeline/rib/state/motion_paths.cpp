@@ -101,17 +101,7 @@ V3d transformed(const M44d& m, const V3f& p) {
     return out;
 }
 
-}  // namespace
-
-/// The box stands for all points: a rotation bends the paths of those farthest from its centre most, and no
-/// point of the box is farther from any centre than one of its corners.
-std::vector<V3f> corners_of(const std::vector<std::shared_ptr<const Shape>>& shape_keys) {
-    Box3f box;
-    for (const auto& key : shape_keys) {
-        extend(box, key->variables);
-        if (const auto* quadric = std::get_if<Quadric>(&key->topology)) extend(box, *quadric);
-        if (const auto* blobby = std::get_if<Blobby>(&key->topology)) extend(box, *blobby);
-    }
+std::vector<V3f> corners_of_box(const Box3f& box) {
     std::vector<V3f> corners;
     if (box.isEmpty()) return corners;
     for (int c = 0; c < 8; ++c)
@@ -120,19 +110,80 @@ std::vector<V3f> corners_of(const std::vector<std::shared_ptr<const Shape>>& sha
     return corners;
 }
 
-/// A path bends most in the middle of a segment, where the chord is compared with it.
+Box3f box_of(const Shape& shape) {
+    Box3f box;
+    extend(box, shape.variables);
+    if (const auto* quadric = std::get_if<Quadric>(&shape.topology)) extend(box, *quadric);
+    if (const auto* blobby = std::get_if<Blobby>(&shape.topology)) extend(box, *blobby);
+    return box;
+}
+
+/// The same ones at each of a shape's keys.
+std::vector<V3f> points_of(const Shape& shape) {
+    std::vector<V3f> points;
+    if (const Parameter* P = shape.variables.find("P"); P && P->declaration.floats_per_item() == 3)
+        for (size_t i = 0; i + 3 <= P->floats.size(); i += 3)
+            points.emplace_back(P->floats[i], P->floats[i + 1], P->floats[i + 2]);
+    if (const Parameter* Pw = shape.variables.find("Pw"); Pw && Pw->declaration.floats_per_item() == 4)
+        for (size_t i = 0; i + 4 <= Pw->floats.size(); i += 4) {
+            const float w = Pw->floats[i + 3] > 0 ? Pw->floats[i + 3] : 1;
+            points.push_back(V3f(Pw->floats[i], Pw->floats[i + 1], Pw->floats[i + 2]) / w);
+        }
+    return points.empty() ? corners_of_box(box_of(shape)) : points;
+}
+
+}  // namespace
+
+/// The box stands for all points: a rotation bends the paths of those farthest from its centre most, and no
+/// point of the box is farther from any centre than one of its corners.
+std::vector<V3f> corners_of(const std::vector<std::shared_ptr<const Shape>>& shape_keys) {
+    Box3f box;
+    for (const auto& key : shape_keys) box.extendBy(box_of(*key));
+    return corners_of_box(box);
+}
+
+/// Of all points "P" and "Pw"; quadrics and blobbies by their boxes.
+std::vector<V3f> ways_of(const std::vector<std::shared_ptr<const Shape>>& shape_keys) {
+    Box3f ways;
+    for (size_t key = 0; key + 1 < shape_keys.size(); ++key) {
+        const std::vector<V3f> from = points_of(*shape_keys[key]), to = points_of(*shape_keys[key + 1]);
+        for (size_t i = 0; i < std::min(from.size(), to.size()); ++i) ways.extendBy(to[i] - from[i]);
+    }
+    if (ways.isEmpty() || (ways.min == V3f(0, 0, 0) && ways.max == ways.min)) return {};
+    return corners_of_box(ways);
+}
+
+/// A path bends most in the middle of a segment. Where points move themselves, by p and by M as time goes on,
+/// the chord at a part t of the segment is off by t (1 - t) of the change of p taken by the change of M,
+/// beside what M alone does to points that stand still.
 float chord_error(const MovingTransform& transform, float open, float close, int keys,
-                  const std::vector<V3f>& points, const Camera& camera) {
+                  const PointPaths& paths, const std::vector<float>& times, const Camera& camera) {
     const double segment = (static_cast<double>(close) - open) / (keys - 1);
+    // Ways go from one of the shape's keys to the next.
+    const double part_of_way = std::min(1.0, static_cast<double>(paths.shape_keys - 1) / (keys - 1));
     float most = 0;
     M44d from = transform.at(open);
+    auto next_time = times.begin();
     for (int k = 0; k + 1 < keys; ++k) {
-        const M44d middle = transform.at(static_cast<float>(open + (k + 0.5) * segment));
-        const M44d to = transform.at(static_cast<float>(open + (k + 1) * segment));
-        for (const V3f& p : points) {
-            const V3d chord = (transformed(from, p) + transformed(to, p)) * 0.5;
-            most = std::max(most, pixels_between(transformed(middle, p), chord, camera));
-        }
+        const double begin = open + k * segment, end = begin + segment;
+        const M44d to = transform.at(static_cast<float>(end));
+        const auto look = [&](double part) {
+            const M44d exact = transform.at(static_cast<float>(begin + part * segment));
+            for (const V3f& p : paths.points) {
+                const V3d at = transformed(exact, p),
+                          chord = transformed(from, p) * (1 - part) + transformed(to, p) * part;
+                most = std::max(most, pixels_between(at, chord, camera));
+                for (const V3f& way : paths.ways) {
+                    V3d before, after;
+                    from.multDirMatrix(V3d(way), before), to.multDirMatrix(V3d(way), after);
+                    const V3d off = (after - before) * (part * (1 - part) * part_of_way);
+                    most = std::max(most, pixels_between(at, chord + off, camera));
+                }
+            }
+        };
+        look(0.5);
+        for (; next_time != times.end() && *next_time < end; ++next_time)
+            if (*next_time > begin) look((*next_time - begin) / segment);
         from = to;
     }
     return most;
@@ -142,10 +193,16 @@ float chord_error(const MovingTransform& transform, float open, float close, int
 int keys_for_paths(const MovingTransform& transform, float open, float close,
                    const std::vector<std::shared_ptr<const Shape>>& shape_keys, const Camera& camera) {
     int keys = transform.wanted_keys(open, close);
-    if (keys == 1 || !transform.may_bend(open, close)) return keys;
-    const std::vector<V3f> corners = corners_of(shape_keys);
-    while (keys < kMaxKeyCount && chord_error(transform, open, close, keys, corners, camera) > kMostPixels)
+    if (keys == 1) return keys;
+    const bool bends = transform.may_bend(open, close, shape_keys.size() > 1);
+    std::vector<float> unmet = transform.unmet_times(open, close, keys);
+    if (!bends && unmet.empty()) return keys;
+    const PointPaths paths{corners_of(shape_keys), ways_of(shape_keys), static_cast<int>(shape_keys.size())};
+    while (keys < kMaxKeyCount &&
+           chord_error(transform, open, close, keys, paths, unmet, camera) > kMostPixels) {
         keys = 2 * keys - 1;
+        unmet = transform.unmet_times(open, close, keys);
+    }
     return keys;
 }
 

@@ -71,6 +71,70 @@ TEST(MotionPaths, TranslationsStayStraight) {
     EXPECT_EQ(r.primitive().camera_from_object.size(), 2u);
 }
 
+/// Where a corner of a deforming polygon under a moving transformation is at some time, as it is rendered:
+/// places at keys, and straight ways between them.
+V3f corner_at(const Primitive& primitive, size_t corner, float time) {
+    const auto place = [&](int key, int keys) {
+        const auto between = [&](const auto& of_keys) {  // of as many keys or fewer
+            const float at = static_cast<float>(key) / static_cast<float>(keys - 1) *
+                             static_cast<float>(of_keys.size() - 1);
+            const auto before = std::min(static_cast<size_t>(at), of_keys.size() - 1);
+            return std::pair(before, at - static_cast<float>(before));
+        };
+        const auto& shapes = primitive.shape_keys;
+        const auto point = [&](size_t k) {
+            const auto& P = shapes[k]->variables.find("P")->floats;
+            return V3f(P[3 * corner], P[3 * corner + 1], P[3 * corner + 2]);
+        };
+        const auto [s, s_part] = between(shapes);
+        const V3f p = s_part > 0 ? point(s) + (point(s + 1) - point(s)) * s_part : point(s);
+        const auto& spaces = primitive.camera_from_object;
+        const auto [m, m_part] = between(spaces);
+        return m_part > 0 ? (p * spaces[m]) * (1 - m_part) + (p * spaces[m + 1]) * m_part : p * spaces[m];
+    };
+    const int keys = primitive.key_count();
+    const float at = time * static_cast<float>(keys - 1);
+    const int before = std::min(static_cast<int>(at), keys - 2);
+    const float part = at - static_cast<float>(before);
+    return place(before, keys) * (1 - part) + place(before + 1, keys) * part;
+}
+
+constexpr const char* kSixtyFour =
+    "Format 64 64 1 ScreenWindow 0 64 0 64 Projection \"orthographic\" Shutter 0 1 Translate 0 0 5 WorldBegin ";
+
+/// The product of the shape's motion and the transformation's bends, though each is straight or the shape
+/// stands still.
+TEST(MotionPaths, DeformingShapesBendUnderMovingScalesAndRotations) {
+    const std::string deforming =
+        "MotionBegin [0 1] Polygon \"P\" [3.5 -.5 0 4.5 -.5 0 4.5 .5 0 3.5 .5 0] Polygon \"P\" [59.5 -.5 0 "
+        "60.5 -.5 0 60.5 .5 0 59.5 .5 0] MotionEnd WorldEnd";
+    const ReadOutcome scaled = read_text(
+        kSixtyFour + std::string("MotionBegin [0 1] Scale .01 1 1 Scale 1 1 1 MotionEnd ") + deforming);
+    const ReadOutcome turned = read_text(
+        kSixtyFour + std::string("MotionBegin [0 1] Rotate 0 0 0 1 Rotate 9.9 0 0 1 MotionEnd ") + deforming);
+    for (int i = 0; i <= 100; ++i) {
+        const float t = static_cast<float>(i) / 100, x = 3.5f + 56 * t, y = -.5f;
+        EXPECT_NEAR(corner_at(scaled.primitive(), 0, t).x, x * (.01f + .99f * t), .26f) << t;
+        const double angle = 9.9 * M_PI / 180 * t;
+        const V3f p = corner_at(turned.primitive(), 0, t);
+        EXPECT_NEAR(p.x, x * std::cos(angle) - y * std::sin(angle), .26) << t;
+        EXPECT_NEAR(p.y, x * std::sin(angle) + y * std::cos(angle), .26) << t;
+    }
+}
+
+/// Times that are no sixteenths of the shutter cut paths short, which is seen in large pictures alone.
+TEST(MotionPaths, TimesThatNoKeyMeetsAreNearlyReached) {
+    const std::string moving =
+        "MotionBegin [0 .3333333 1] Translate 0 0 0 Translate 60 0 0 Translate 0 0 0 MotionEnd Polygon \"P\" "
+        "[0 0 0 1 0 0 1 8 0 0 8 0] WorldEnd";
+    const ReadOutcome large = read_text(kSixtyFour + moving);
+    EXPECT_EQ(large.primitive().key_count(), kMaxKeyCount)
+        << "a kink is never met, and cut by a pixel at most";
+    EXPECT_NEAR(corner_at(large.primitive(), 0, 1.0f / 3).x, 60, 1);
+    const ReadOutcome small = read_text("Format 2 2 1 " + std::string(kSixtyFour).substr(15) + moving);
+    EXPECT_EQ(small.primitive().key_count(), 17);
+}
+
 /// Every kind of surface has its extent: each is about as large as the bar, turns by 30 degrees, and wants
 /// more keys than the five of ten degrees.
 TEST(MotionPaths, AllSurfacesHaveTheirExtent) {

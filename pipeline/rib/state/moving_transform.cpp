@@ -11,6 +11,8 @@ namespace {
 
 /// A shutter is divided into 16 for given times at most.
 constexpr int kMostKeysForTimes = 17;
+/// Times between keys at which paths are looked at: each costs as much as a key.
+constexpr size_t kMostUnmetTimes = 64;
 /// A chord of ten degrees is 0.4 % of the radius off its arc.
 constexpr float kDegreesPerSegment = 10;
 constexpr double kLinearTolerance = 0.004;  ///< 1 - cos(5 degrees): as far as a chord of ten degrees is off
@@ -56,6 +58,13 @@ M44d skew(const TransformArguments& a) {
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) m[i][j] += across[i] * amount * to[j];
     return m;
+}
+
+/// Whether a time within the shutter is one of its keys: to a ten-thousandth of a segment, for times are
+/// floats.
+bool is_met(float time, float open, float close, int keys) {
+    const float place = (time - open) / (close - open) * static_cast<float>(keys - 1);
+    return std::abs(place - std::round(place)) < 1e-4f;
 }
 
 }  // namespace
@@ -172,14 +181,30 @@ bool MovingTransform::moves_between(float open, float close) const {
 }
 
 /// Scales and translations alone move every point along a line, at a steady speed within a segment.
-bool MovingTransform::may_bend(float open, float close) const {
+bool MovingTransform::may_bend(float open, float close, bool deforms) const {
     int moving = 0;
     for (const Factor* f = newest_.get(); f; f = f->older.get()) {
         if (!f->moving || !f->moving->moves_between(open, close)) continue;
         const TransformKind kind = f->moving->kind;
         if (kind == TransformKind::Rotate || kind == TransformKind::Skew || ++moving > 1) return true;
+        if (deforms && kind != TransformKind::Translate) return true;
     }
     return false;
+}
+
+std::vector<float> MovingTransform::unmet_times(float open, float close, int keys) const {
+    std::vector<float> unmet;
+    for (const Factor* f = newest_.get(); f; f = f->older.get()) {
+        if (!f->moving || !f->moving->moves_between(open, close)) continue;
+        for (const float time : f->moving->times)
+            if (time > open && time < close && !is_met(time, open, close, keys)) unmet.push_back(time);
+    }
+    std::ranges::sort(unmet);
+    if (unmet.size() > kMostUnmetTimes) {
+        for (size_t i = 0; i < kMostUnmetTimes; ++i) unmet[i] = unmet[i * unmet.size() / kMostUnmetTimes];
+        unmet.resize(kMostUnmetTimes);
+    }
+    return unmet;
 }
 
 /// Matrix elements halfway between two keys, against the mean of the keys', relative to the largest.
@@ -217,13 +242,10 @@ int MovingTransform::wanted_keys(float open, float close) const {
     return keys;
 }
 
-/// A ten-thousandth of a segment is taken as met: times are floats.
 int keys_meeting(const std::vector<float>& times, float open, float close) {
     for (int keys = 2; keys < kMostKeysForTimes; keys = 2 * keys - 1) {
         const bool all_met = std::all_of(times.begin(), times.end(), [&](float time) {
-            if (time <= open || time >= close) return true;
-            const float place = (time - open) / (close - open) * static_cast<float>(keys - 1);
-            return std::abs(place - std::round(place)) < 1e-4f;
+            return time <= open || time >= close || is_met(time, open, close, keys);
         });
         if (all_met) return keys;
     }

@@ -51,8 +51,13 @@ class MovingTransform {
     /// Keys that the motion in the shutter wants: 1, or 2^m + 1 so that keys given on a dyadic division of
     /// the shutter are met and no segment turns by more than about ten degrees, or bends as much.
     int wanted_keys(float open, float close) const;
-    /// False when every point moves straight: at most one motion acts in the shutter, and it turns nothing.
-    bool may_bend(float open, float close) const;
+    /// False when every point moves straight, at a steady speed between keys: at most one motion acts in the
+    /// shutter, and it turns nothing. Points that move themselves (`deforms`) only stay straight where they
+    /// are shifted.
+    bool may_bend(float open, float close, bool deforms) const;
+    /// The times within the shutter that requests were given for and that no key meets; some of them where
+    /// they are many.
+    std::vector<float> unmet_times(float open, float close, int keys) const;
     /// For a limit (MotionCollector): each costs work at every key of every primitive.
     int moving_factors() const { return newest_ ? newest_->moving_factors : 0; }
 
