@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace trapeze {
@@ -59,6 +60,14 @@ struct Parameter {
     bool is_string() const { return declaration.type == ValueType::String; }
 };
 
+/// The first number or string of a parameter, or the fallback where there is none, or it is empty.
+inline float first_number(const Parameter* parameter, float fallback) {
+    return parameter && !parameter->floats.empty() ? parameter->floats[0] : fallback;
+}
+inline std::string first_string(const Parameter* parameter, std::string fallback) {
+    return parameter && !parameter->strings.empty() ? parameter->strings[0] : fallback;
+}
+
 /// A parameter list in the order of the file; when a name occurs twice the last one counts.
 struct ParameterList {
     std::vector<Parameter> values;
@@ -71,15 +80,9 @@ struct ParameterList {
     Parameter* find(std::string_view name) {
         return const_cast<Parameter*>(static_cast<const ParameterList*>(this)->find(name));
     }
-    /// The first number or string of a parameter, or the fallback where it is missing or empty.
-    float float_or(std::string_view name, float fallback) const {
-        const Parameter* p = find(name);
-        return p && !p->floats.empty() ? p->floats[0] : fallback;
-    }
+    float float_or(std::string_view name, float fallback) const { return first_number(find(name), fallback); }
     std::string string_or(std::string_view name, std::string fallback) const {
-        const Parameter* p = find(name);
-        if (p && !p->strings.empty()) return p->strings[0];
-        return fallback;
+        return first_string(find(name), std::move(fallback));
     }
     /// Replaces the value of the same name, or appends.
     void set(Parameter value) {

@@ -20,14 +20,9 @@ class CategoryValues {
         const auto found = values_.find(name);
         return found == values_.end() ? nullptr : &*found;
     }
-    /// The first number or string of a value, or the fallback where it is missing or empty.
-    float float_or(std::string_view name, float fallback) const {
-        const Parameter* const value = find(name);
-        return value && !value->floats.empty() ? value->floats[0] : fallback;
-    }
+    float float_or(std::string_view name, float fallback) const { return first_number(find(name), fallback); }
     std::string string_or(std::string_view name, std::string fallback) const {
-        const Parameter* const value = find(name);
-        return value && !value->strings.empty() ? value->strings[0] : fallback;
+        return first_string(find(name), std::move(fallback));
     }
     /// Replaces the value of the same name, or adds one.
     void set(Parameter value) {

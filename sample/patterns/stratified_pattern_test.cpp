@@ -226,45 +226,46 @@ struct Share {
     }
 };
 
-/// The left half of a pixel covered by what is blurred over a pixel by the lens: closed form by the strip of
-/// a disk of radius 1, integrated over the pixel. The same for all directions in which the edge may lie,
-/// since disks have none, and pixels little.
+/// What a blurred edge covers, across the pixel or along it: right in the mean, within what is left of
+/// chance, and with many samples with half the spread of random ones at most.
+void expect_right(const Share& seen, double right, int n) {
+    const double random = std::sqrt(right * (1 - right)) / n;
+    EXPECT_NEAR(seen.mean, right, 4 * random / 64) << n;
+    if (n >= 8) {
+        EXPECT_LT(seen.deviation, random / 2) << n;
+    }
+}
+
+constexpr int kSides[] = {2, 3, 4, 6, 8, 12, 16};
+
+/// An edge .1 beyond the middle of the pixel, blurred by the lens over a pixel to each side: in closed form
+/// the strip of a disk of radius 1, integrated over the pixel.
 TEST(StratifiedPattern, DefocusIsRightAndItsNoiseFallsFasterThanRandom) {
     const auto strip = [](double at) {  // of the unit disk's area, left of `at`
         return at <= -1 ? 0 : at >= 1 ? 1 : .5 + (at * std::sqrt(1 - at * at) + std::asin(at)) / M_PI;
     };
     double right = 0;
-    for (int i = 0; i < 4000; ++i) right += strip((.1 - ((i + .5) / 4000 - .5))) / 4000;
-    for (const int n : {2, 3, 4, 6, 8, 12, 16}) {
+    for (int i = 0; i < 4000; ++i) right += strip(.1 - ((i + .5) / 4000 - .5)) / 4000;
+    for (const int n : kSides) {
         const TestFrame frame = frame_of_samples(n, n, false, true);
         const SampleTile tile = tile_of(frame, {0, 0, 64, 64});
-        const Share across(tile, [&](float x, float, size_t i) { return x - .5f + tile.lens_u[i] < .1f; });
-        const Share along(tile, [&](float, float y, size_t i) { return y - .5f + tile.lens_v[i] < .1f; });
-        const double random = std::sqrt(right * (1 - right)) / n, error = 4 * random / 64;
-        EXPECT_NEAR(across.mean, right, error) << n;
-        EXPECT_NEAR(along.mean, right, error) << n;
-        if (n < 8) continue;
-        EXPECT_LT(across.deviation, random / 2) << n;
-        EXPECT_LT(along.deviation, random / 2) << n;
+        expect_right({tile, [&](float x, float, size_t i) { return x - .5f + tile.lens_u[i] < .1f; }}, right,
+                     n);
+        expect_right({tile, [&](float, float y, size_t i) { return y - .5f + tile.lens_v[i] < .1f; }}, right,
+                     n);
     }
 }
 
-/// An edge that moves by a pixel and ends .1 beyond the middle of its way, each way and askew.
+/// An edge that moves by a pixel, past 1.1 as the shutter opens: all samples but those of a triangle of legs
+/// .9.
 TEST(StratifiedPattern, MotionIsRightAndItsNoiseFallsFasterThanRandom) {
-    // x + t < 1.1 for x and t in [0, 1): all but a triangle of legs .9.
     const double right = 1 - .9 * .9 / 2;
-    for (const int n : {2, 3, 4, 6, 8, 12, 16})
+    for (const int n : kSides)
         for (const bool lens : {false, true}) {
             const TestFrame frame = frame_of_samples(n, n, true, lens);
             const SampleTile tile = tile_of(frame, {0, 0, 64, 64});
-            const Share across(tile, [&](float x, float, size_t i) { return x + tile.time[i] < 1.1f; });
-            const Share along(tile, [&](float, float y, size_t i) { return y + tile.time[i] < 1.1f; });
-            const double random = std::sqrt(right * (1 - right)) / n, error = 4 * random / 64;
-            EXPECT_NEAR(across.mean, right, error) << n;
-            EXPECT_NEAR(along.mean, right, error) << n;
-            if (n < 8) continue;
-            EXPECT_LT(across.deviation, random / 2) << n;
-            EXPECT_LT(along.deviation, random / 2) << n;
+            expect_right({tile, [&](float x, float, size_t i) { return x + tile.time[i] < 1.1f; }}, right, n);
+            expect_right({tile, [&](float, float y, size_t i) { return y + tile.time[i] < 1.1f; }}, right, n);
         }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/motion_keys.h"
 #include "core/portable_math.h"
@@ -68,15 +69,26 @@ void extend(Box3f& box, const Blobby& blobby) {
     }
 }
 
-/// Points "P", and "Pw" over their weights; points without a positive weight have no place.
-void extend(Box3f& box, const ParameterList& variables) {
+/// Hands on points "P", and "Pw" over their weights; points without a positive weight have no place, and are
+/// handed on as nothing.
+template <class Visit>
+void for_each_point(const ParameterList& variables, const Visit& visit) {
     if (const Parameter* P = variables.find("P"); P && P->declaration.floats_per_item() == 3)
         for (size_t i = 0; i + 3 <= P->floats.size(); i += 3)
-            box.extendBy(V3f(P->floats[i], P->floats[i + 1], P->floats[i + 2]));
+            visit(std::optional(V3f(P->floats[i], P->floats[i + 1], P->floats[i + 2])));
     if (const Parameter* Pw = variables.find("Pw"); Pw && Pw->declaration.floats_per_item() == 4)
-        for (size_t i = 0; i + 4 <= Pw->floats.size(); i += 4)
+        for (size_t i = 0; i + 4 <= Pw->floats.size(); i += 4) {
+            std::optional<V3f> point;
             if (const float w = Pw->floats[i + 3]; w > 0)
-                box.extendBy(V3f(Pw->floats[i], Pw->floats[i + 1], Pw->floats[i + 2]) / w);
+                point = V3f(Pw->floats[i], Pw->floats[i + 1], Pw->floats[i + 2]) / w;
+            visit(point);
+        }
+}
+
+void extend(Box3f& box, const ParameterList& variables) {
+    for_each_point(variables, [&](const std::optional<V3f>& point) {
+        if (point) box.extendBy(*point);
+    });
 }
 
 /// Pixels from one place to another as the camera sees them; 0 where it cannot. To first order, about the
@@ -118,18 +130,13 @@ Box3f box_of(const Shape& shape) {
     return box;
 }
 
-/// The same ones at each of a shape's keys.
-std::vector<V3f> points_of(const Shape& shape) {
-    std::vector<V3f> points;
-    if (const Parameter* P = shape.variables.find("P"); P && P->declaration.floats_per_item() == 3)
-        for (size_t i = 0; i + 3 <= P->floats.size(); i += 3)
-            points.emplace_back(P->floats[i], P->floats[i + 1], P->floats[i + 2]);
-    if (const Parameter* Pw = shape.variables.find("Pw"); Pw && Pw->declaration.floats_per_item() == 4)
-        for (size_t i = 0; i + 4 <= Pw->floats.size(); i += 4) {
-            const float w = Pw->floats[i + 3] > 0 ? Pw->floats[i + 3] : 1;
-            points.push_back(V3f(Pw->floats[i], Pw->floats[i + 1], Pw->floats[i + 2]) / w);
-        }
-    return points.empty() ? corners_of_box(box_of(shape)) : points;
+/// The same ones at each of a shape's keys: its points, else its box's corners.
+std::vector<std::optional<V3f>> points_of(const Shape& shape) {
+    std::vector<std::optional<V3f>> points;
+    for_each_point(shape.variables, [&](const std::optional<V3f>& point) { points.push_back(point); });
+    if (points.empty())
+        for (const V3f& corner : corners_of_box(box_of(shape))) points.emplace_back(corner);
+    return points;
 }
 
 }  // namespace
@@ -146,8 +153,9 @@ std::vector<V3f> corners_of(const std::vector<std::shared_ptr<const Shape>>& sha
 std::vector<V3f> ways_of(const std::vector<std::shared_ptr<const Shape>>& shape_keys) {
     Box3f ways;
     for (size_t key = 0; key + 1 < shape_keys.size(); ++key) {
-        const std::vector<V3f> from = points_of(*shape_keys[key]), to = points_of(*shape_keys[key + 1]);
-        for (size_t i = 0; i < std::min(from.size(), to.size()); ++i) ways.extendBy(to[i] - from[i]);
+        const auto from = points_of(*shape_keys[key]), to = points_of(*shape_keys[key + 1]);
+        for (size_t i = 0; i < std::min(from.size(), to.size()); ++i)
+            if (from[i] && to[i]) ways.extendBy(*to[i] - *from[i]);
     }
     if (ways.isEmpty() || (ways.min == V3f(0, 0, 0) && ways.max == ways.min)) return {};
     return corners_of_box(ways);
