@@ -68,7 +68,7 @@ function(trapeze_room name)
     endif()
     set(optimisation ${TRAPEZE_TEST_OPTIMISATION})
     if(ROOM_TESTS_COMPUTE)
-        set(optimisation ${TRAPEZE_RARELY_RUN_OPTIMISATION})
+        set(optimisation ${TRAPEZE_COMPUTING_TEST_OPTIMISATION})
     endif()
     if(TRAPEZE_BUILD_TESTS AND ROOM_TESTS)
         trapeze_room_test(${name} ${name}_test "${ROOM_TESTS}" "${ROOM_PRIVATE_LINKS}" "${ROOM_PROCESSES}"

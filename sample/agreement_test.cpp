@@ -66,6 +66,28 @@ GridMaker frame_before(const GridMaker& maker) {
     return before;
 }
 
+/// What the samples of a tile hit, one after another.
+struct NaiveHits {
+    std::vector<Hit> all;
+    Hit opaque = kNoHit;  ///< the nearest
+};
+
+/// Tests all samples against a micropolygon.
+void test_naively(const Grid& grid, size_t g, int u, int v, const Camera& camera,
+                  std::span<const AxisRay> rays, std::span<NaiveHits> hits) {
+    const MicropolygonId id{static_cast<uint32_t>(g), static_cast<uint8_t>(u), static_cast<uint8_t>(v)};
+    auto quad = grid.quad(u, v, 0);
+    for (size_t s = 0; s < rays.size(); ++s) {
+        if (grid.moves()) quad = grid.quad(u, v, rays[s].time);
+        float depth;
+        if (!hit_micropolygon(rays[s], quad, grid.facing, &depth)) continue;
+        if (!(depth >= camera.near_clip && depth <= camera.far_clip)) continue;
+        const Hit hit{depth, id.packed()};
+        hits[s].all.push_back(hit);
+        if (grid.opaque && in_front(hit, hits[s].opaque)) hits[s].opaque = hit;
+    }
+}
+
 /// What no bound has a say in: every sample against every micropolygon, one by one.
 std::vector<HitBuffer> resolve_naively(const TestScene& scene, const SamplePattern& pattern) {
     const Camera& camera = scene.frame.context.camera;
@@ -74,27 +96,19 @@ std::vector<HitBuffer> resolve_naively(const TestScene& scene, const SamplePatte
     for (size_t n = 0; n < tiles.size(); ++n) {
         SampleTile samples;
         pattern.make_tile(tiles[n], samples);
+        std::vector<NaiveHits> found(samples.rays.size());
+        for (size_t g = 0; g < scene.maker.grids().grids.size(); ++g) {
+            const Grid& grid = scene.maker.grids().grids[g];
+            for (int v = 0; v < grid.shape.nv; ++v)
+                for (int u = 0; u < grid.shape.nu; ++u)
+                    test_naively(grid, g, u, v, camera, samples.rays, found);
+        }
         HitBuffer& buffer = buffers[n];
         buffer.first.push_back(0);
-        for (const AxisRay& ray : samples.rays) {
-            std::vector<Hit> hits;
-            Hit opaque = kNoHit;
-            for (size_t g = 0; g < scene.maker.grids().grids.size(); ++g) {
-                const Grid& grid = scene.maker.grids().grids[g];
-                for (int v = 0; v < grid.shape.nv; ++v)
-                    for (int u = 0; u < grid.shape.nu; ++u) {
-                        float depth;
-                        if (!hit_micropolygon(ray, grid.quad(u, v, ray.time), grid.facing, &depth)) continue;
-                        if (!(depth >= camera.near_clip && depth <= camera.far_clip)) continue;
-                        const MicropolygonId id{static_cast<uint32_t>(g), static_cast<uint8_t>(u),
-                                                static_cast<uint8_t>(v)};
-                        hits.push_back({depth, id.packed()});
-                        if (grid.opaque && in_front(hits.back(), opaque)) opaque = hits.back();
-                    }
-            }
-            std::sort(hits.begin(), hits.end(), in_front);
-            for (const Hit& hit : hits)
-                if (!in_front(opaque, hit)) buffer.hits.push_back(hit);
+        for (NaiveHits& hits : found) {
+            std::sort(hits.all.begin(), hits.all.end(), in_front);
+            for (const Hit& hit : hits.all)
+                if (!in_front(hits.opaque, hit)) buffer.hits.push_back(hit);
             buffer.first.push_back(static_cast<uint32_t>(buffer.hits.size()));
         }
     }
