@@ -334,13 +334,15 @@ TEST(Gather, IsTheSameForEveryOrderOfWork) {
 TEST(Gather, SaysWhatItDoesNotKnow) {
     for (const auto& [body, text] :
          {std::pair("gather(\"\", P, w, 0, 1, \"surface:Ci\", h) { }", "gather() knows no \"surface:Ci\""),
-          {"string a = \"smap\"; if (h == 7) a = \"x\"; h = trace(P, w, concat(a, \"les\"), 3);",
+          {"string a = \"smap\"; if (n == 7) a = \"x\"; h = trace(P, w, concat(a, \"les\"), 3);",
            "trace() knows no \"smaples\""},
           {"string a = \"side\"; h = trace(P, w, \"hitsides\", concat(a, \"ways\"));", "not \"sideways\""}}) {
         const WorkFolder folder;
         std::vector<Diagnostic> said;
-        folder.write("ask.sl", std::string("surface ask() { float h = 3; vector w = vector(0, 0, -1); ") +
-                                   body + " Ci = h; Oi = 1; }");
+        folder.write(
+            "ask.sl",
+            std::string("surface ask(uniform float n = 3) { float h = 3; vector w = vector(0, 0, -1); ") +
+                body + " Ci = h; Oi = 1; }");
         folder.write("a.rib", kPicture + "Option \"searchpath\" \"string shader\" [\"" +
                                   folder.path().string() + "\"] WorldBegin AttributeBegin " + kHidden +
                                   kSeen + wall("3") + "AttributeEnd Surface \"ask\" " + kAsker +

@@ -154,6 +154,31 @@ TEST(Analysis, UniformVariablesBecomeVarying) {
               "warning 1:65: \"x\" is uniform and gets a varying value: it becomes varying\n");
 }
 
+TEST(Analysis, TextsThatWouldVaryAreWarnedOf) {
+    const std::string decides = ": the first vertex of all that are shaded together decides for all\n";
+    const std::string set = " is a string, and set where only some vertices take part" + decides;
+    EXPECT_EQ(in_surface("string a = \"x\"; if (s > .5) a = \"y\";"), "warning 1:95: \"a\"" + set);
+    EXPECT_EQ(in_surface("string a; if (s > .5) attribute(\"x\", a);"), "warning 1:104: \"a\"" + set);
+    EXPECT_EQ(said("void f(output string b) { b = \"y\"; } surface t() { string a; if (s > .5) f(a); }"),
+              "warning 1:76: \"a\"" + set);
+    EXPECT_EQ(said("surface t(output string a = \"\") { if (s > .5) return; a = \"y\"; }"),
+              "warning 1:55: \"a\"" + set);
+    EXPECT_EQ(in_surface("string a[2] = {\"x\", \"y\"}; printf(a[s]);"),
+              "warning 1:101: a string is chosen by what varies" + decides);
+    EXPECT_EQ(in_surface("string a = s > .5 ? \"x\" : \"y\";"),
+              "warning 1:85: a string is chosen by what varies" + decides);
+    EXPECT_EQ(in_surface("string a = format(\"%f.tif\", s);"),
+              "warning 1:78: a string is made of what varies" + decides);
+    EXPECT_EQ(said("string f(float x) { return format(\"%f\", x); } surface t() { printf(f(s)); }"),
+              "warning 1:28: a string is made of what varies" + decides);
+    // What is the same for all, or for each light.
+    EXPECT_EQ(in_surface(
+                  "uniform float x = 1; string a[2] = {\"x\", \"y\"}; if (x > .5) a[x] = format(\"%f\", x);"),
+              "");
+    EXPECT_EQ(in_surface("if (s > .5) { string a = \"x\"; uniform float x = 1; if (x > 0) a = \"y\"; }"), "");
+    EXPECT_EQ(in_surface("string a; illuminance(P) { if (lightsource(\"__a\", a) == 1) a = \"y\"; }"), "");
+}
+
 TEST(Analysis, ParametersOfFunctionsHaveDefaultValues) {
     const auto with = [](const std::string& parameters, const std::string& call) {
         return said("float f(" + parameters + ") { return 1; } surface t() { Ci = " + call + "; }");

@@ -1,6 +1,8 @@
 #include "shade/rsl/analysis/propagate_varying.h"
 
 #include <algorithm>
+#include <set>
+#include <tuple>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -37,6 +39,13 @@ bool is_varying(const Expression& call) {
     if (call.builtin->op == Op::Texture)
         return call.children.size() == 1 || call.children[1]->type.base == Base::String;
     return op_traits::has(call.builtin->op, op_traits::kNeedsP);
+}
+
+/// Whether a statement's children run once for each light. Only some vertices take part, but texts that are
+/// set there are the light's, the same for all.
+bool is_light_loop(const Statement& s) {
+    return s.kind == Statement::Kind::Illuminance || s.kind == Statement::Kind::Illuminate ||
+           s.kind == Statement::Kind::Solar;
 }
 
 /// Walks over the shader and its functions until nothing changes: a variable becomes varying when a varying
@@ -145,7 +154,9 @@ class Propagation {
         if (s.kind == Statement::Kind::Gather) gather_outputs(s, within);
         if (s.kind == Statement::Kind::Return && function_ && !s.expressions.empty())
             note(facts_[function_].result, apart > 0 ? Varies::Yes : varies(*s.expressions[0]));
+        light_loops_ += is_light_loop(s);
         for (const StatementPtr& child : s.children) statement(*child, within);
+        light_loops_ -= is_light_loop(s);
     }
 
     /// What rays bring back differs from vertex to vertex: the values of "surface:Ci" and its like.
@@ -158,6 +169,7 @@ class Propagation {
     /// varying. One that outlives its statement is at home outside.
     void declare(Variable& variable, int apart) {
         depth_[&variable] = variable.outlives ? 0 : apart;
+        if (variable.type.base == Base::String) text_depth_[&variable] = depth_[&variable] - light_loops_;
         if (!variable.initial) return;
         if (variable.outlives && apart > 0) make_varying(variable, variable.at, false);
         expression(*variable.initial, apart);
@@ -212,6 +224,7 @@ class Propagation {
     /// All that assigns within the expression, the innermost first.
     void expression(const Expression& e, int apart) {
         for (const ExpressionPtr& child : e.children) expression(*child, apart);
+        if (e.type.base == Base::String) check_text(e);
         if (e.kind == Expression::Kind::Assignment)
             assign(*e.children[0], varies(*e.children[1]), apart, true);
         else if (e.kind == Expression::Kind::Call && e.function)
@@ -261,6 +274,7 @@ class Propagation {
                                 ? apart > declared->second
                                 : apart > 0 || (function_ && facts_[function_].called_apart);
         if (element) value = std::max(value, varies(*place.children[1]));
+        if (variable->type.base == Base::String) return set_text(*variable, place.at, apart - light_loops_);
         if (all_varying_) warn = false;
         if (value == Varies::Yes || (value == Varies::ByGrid && !parted))
             return make_varying(*variable, value, place.at, warn);
@@ -298,6 +312,32 @@ class Propagation {
         variable.storage = Storage::Varying;
     }
 
+    // ---- Texts, of which a batch of grids has one
+
+    /// `apart` without loops over lights.
+    void set_text(const Variable& text, SourceLocation at, int apart) {
+        const auto declared = text_depth_.find(&text);
+        if (apart > (declared != text_depth_.end() ? declared->second : 0))
+            report_text(at, "\"" + text.name + "\" is a string, and set where only some vertices take part");
+    }
+
+    /// Whether a text may be another at other vertices.
+    void check_text(const Expression& e) {
+        const bool chosen = e.kind == Expression::Kind::Element || e.kind == Expression::Kind::Conditional;
+        const size_t choice = e.kind == Expression::Kind::Element ? 1 : 0;
+        if (chosen && varying(*e.children[choice]))
+            return report_text(e.at, "a string is chosen by what varies");
+        if (e.kind != Expression::Kind::Call || !e.builtin || e.builtin->op != Op::Format) return;
+        for (const ExpressionPtr& child : e.children)
+            if (varying(*child)) return report_text(e.at, "a string is made of what varies");
+    }
+
+    void report_text(SourceLocation at, const std::string& what) {
+        if (told_of_texts_.emplace(at.source, at.line, at.column).second)
+            reporter_.warning(at,
+                              what + ": the first vertex of all that are shaded together decides for all");
+    }
+
     /// Raises a fact, which is never lowered again.
     template <typename Fact>
     void note(Fact& fact, Fact value) {
@@ -315,6 +355,9 @@ class Propagation {
     std::unordered_set<const Variable*> varying_parameters_;
     std::unordered_set<const Variable*> of_grid_;  // that vary from grid to grid only
     std::unordered_set<const Statement*> exits_apart_;
+    std::unordered_map<const Variable*, int> text_depth_;  // the same, without loops over lights
+    std::set<std::tuple<uint32_t, uint32_t, uint32_t>> told_of_texts_;
+    int light_loops_ = 0;  // around what is looked at
     bool changed_ = false, all_varying_ = false;
 };
 
