@@ -130,7 +130,7 @@ TEST(Displacement, KeysBetweenPosesAreInterpolated) {
 TEST(Displacement, BeyondItsBoundIsReportedWithTheBoundNeeded) {
     ShadingScene scene;
     scene.attributes->displacement_bound = 0.2f;
-    scene.attributes->user.change("displacementbound").set(number("sphere", 0.1f));
+    scene.attributes->user.set("displacementbound", number("sphere", 0.1f));
     scene.displacement("sinewaves", {number("amplitude", 0.5f), number("frequency", 0.25f)});
     const ShadingGrid before = scene.grid(8, 8), after = scene.shaded(before);
     float farthest = 0;

@@ -69,14 +69,8 @@ std::optional<NamedValue> find_default(const Attributes& a, std::string_view nam
     return {};
 }
 
-/// The value that "category:name" asks for, in lists by category; without a category it is "user".
-std::optional<NamedValue> find_user_value(const UserValues::Lists& lists, std::string_view name) {
-    const size_t colon = name.find(':');
-    const std::string category(colon == std::string_view::npos ? "user" : name.substr(0, colon));
-    const auto list = lists.find(category);
-    if (list == lists.end()) return {};
-    const Parameter* const value =
-        list->second.find(colon == std::string_view::npos ? name : name.substr(colon + 1));
+std::optional<NamedValue> find_user_value(const UserValues& values, std::string_view name) {
+    const Parameter* const value = values.find(name);
     if (!value) return {};
     return value->strings.empty() ? NamedValue{value->floats, {}} : NamedValue{{}, value->strings};
 }
@@ -106,7 +100,7 @@ std::optional<NamedValue> find_own(const Options& o, const Camera& camera, std::
 std::optional<NamedValue> find_attribute_value(const Attributes& attributes, const Primitive* primitive,
                                                std::string_view name) {
     if (std::optional<NamedValue> own = find_own(attributes, primitive, name)) return own;
-    if (std::optional<NamedValue> user = find_user_value(attributes.user.lists(), name)) return user;
+    if (std::optional<NamedValue> user = find_user_value(attributes.user, name)) return user;
     return find_default(attributes, name);
 }
 

@@ -35,8 +35,8 @@ Parameter texts(std::string name, Texts values) {
 
 TEST(NamedValues, ArraysOfTextsComeWhole) {
     testing::ShadingScene scene;
-    scene.attributes->user.change("user").set(texts("words", {"this", "should", "work"}));
-    scene.scene.options.user["user"].set(texts("names", {"one", "two"}));
+    scene.attributes->user.set("user", texts("words", {"this", "should", "work"}));
+    scene.scene.options.user.set("user", texts("names", {"one", "two"}));
     const std::string three = "string w[3] = {\"x\", \"y\", \"z\"}; ", two = "string w[2] = {\"x\", \"y\"}; ";
     EXPECT_EQ(shaded(scene, three + "Ci = attribute(\"user:words\", w); if (w[0] == \"this\" && w[1] == "
                                     "\"should\" && w[2] == \"work\") Ci += 10;"),

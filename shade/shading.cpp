@@ -377,9 +377,7 @@ void Shading::report_displacement_bounds() const {
             continue;
         }
         std::string needed = fmt::format("a bound of {:.4g} in camera space is needed", reach);
-        const auto given = material.attributes->user.find("displacementbound");
-        const float sphere =
-            given == material.attributes->user.end() ? 0 : given->second.float_or("sphere", 0);
+        const float sphere = material.attributes->user.float_or("displacementbound", "sphere", 0);
         if (sphere > 0 && bound > 0)
             needed = fmt::format("\"sphere\" {:.4g} is needed where {:.4g} is given", sphere * reach / bound,
                                  sphere);

@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "core/color_management.h"
+#include "core/colors/color_management.h"
+#include "core/colors/color_request.h"
 #include "core/files/module.h"
-#include "core/scene/color_request.h"
 
 namespace trapeze {
 

@@ -8,9 +8,9 @@
 
 #include "composite/displays/compressions.h"
 #include "composite/displays/exr_attributes.h"
+#include "core/colors/transfer.h"
 #include "core/scene/deep_pictures.h"
 #include "core/scene/light_groups.h"
-#include "core/scene/transfer.h"
 
 namespace trapeze {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "composite/displays/cryptomatte_header.h"
 #include "composite/displays/exr_attributes.h"
-#include "core/color_management.h"
+#include "core/colors/color_management.h"
 
 namespace trapeze {
 namespace {

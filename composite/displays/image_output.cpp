@@ -8,7 +8,7 @@
 
 #include "composite/displays/image_library.h"
 #include "composite/displays/srgb.h"
-#include "core/color_management.h"
+#include "core/colors/color_management.h"
 #include "core/random.h"
 
 namespace trapeze {

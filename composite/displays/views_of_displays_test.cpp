@@ -9,9 +9,9 @@
 #include "composite/colors/small_config_harness.h"
 #include "composite/displays/write_displays.h"
 #include "composite/film/raster_harness.h"
+#include "core/colors/transfer.h"
 #include "core/files/file_text_harness.h"
 #include "core/files/temporary_folder_harness.h"
-#include "core/scene/transfer.h"
 
 namespace trapeze {
 namespace {

@@ -11,8 +11,8 @@
 #include <cmath>
 
 #include "composite/film/raster_harness.h"
+#include "core/colors/transfer.h"
 #include "core/files/temporary_folder_harness.h"
-#include "core/scene/transfer.h"
 
 namespace trapeze {
 namespace {

@@ -19,15 +19,14 @@ struct SeenNumbers {
 /// Which samples see a primitive with these attributes; they keep it as "detail" "seen", unless all samples
 /// do.
 inline SeenNumbers seen_numbers(const Attributes& attributes) {
-    const auto detail = attributes.user.find("detail");
-    const Parameter* const seen = detail == attributes.user.end() ? nullptr : detail->second.find("seen");
+    const Parameter* const seen = attributes.user.find("detail", "seen");
     return seen && seen->floats.size() == 2 ? SeenNumbers{seen->floats[0], seen->floats[1]} : SeenNumbers{};
 }
 
 inline void set_seen_numbers(Attributes& attributes, const SeenNumbers& numbers) {
     if (numbers.are_all()) return;
-    attributes.user.change("detail").set(
-        {"seen", {StorageClass::Uniform, ValueType::Float, 2}, {numbers.from, numbers.to}, {}});
+    attributes.user.set(
+        "detail", {"seen", {StorageClass::Uniform, ValueType::Float, 2}, {numbers.from, numbers.to}, {}});
 }
 
 }  // namespace trapeze

@@ -111,7 +111,7 @@ struct Options {
     std::string hider = "hidden";
     ParameterList hider_parameters;
     std::vector<Display> displays;  ///< the first is the primary one; others came with '+'
-    UserValues::Lists user;         ///< Option "category" "name" value, by category
+    UserValues user;                ///< Option "category" "name" value, by category
     std::map<std::string, std::vector<std::string>>
         search_paths;                     ///< by category; "." and the scene's folder included
     SourceLocation colors_location = {};  ///< of the last Option "ocio"

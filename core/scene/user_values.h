@@ -1,10 +1,8 @@
-/// Values that a scene sets by category and name, as Attribute does. Copies share them until one is changed:
-/// a scene has millions of sets of attributes, and most of them differ in nothing of this.
+/// Values that a scene sets by category and name, as Attribute and Option do.
 #pragma once
 
-#include <map>
+#include <cstddef>
 #include <memory>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,69 +11,67 @@
 
 namespace trapeze {
 
-/// The values of a category, found by name: a file may set them by the ten thousand.
-class CategoryValues {
-  public:
-    const Parameter* find(std::string_view name) const {
-        const auto found = values_.find(name);
-        return found == values_.end() ? nullptr : &*found;
-    }
-    float float_or(std::string_view name, float fallback) const { return first_number(find(name), fallback); }
-    std::string string_or(std::string_view name, std::string fallback) const {
-        return first_string(find(name), std::move(fallback));
-    }
-    /// Replaces the value of the same name, or adds one.
-    void set(Parameter value) {
-        const auto place = values_.lower_bound(value.name);
-        if (place == values_.end() || place->name != value.name) {
-            values_.insert(place, std::move(value));
-            return;
-        }
-        auto node = values_.extract(place);
-        node.value() = std::move(value);
-        values_.insert(std::move(node));
-    }
-    /// In the order of names.
-    auto begin() const { return values_.begin(); }
-    auto end() const { return values_.end(); }
-
-  private:
-    struct ByName {
-        using is_transparent = void;
-        bool operator()(const Parameter& a, const Parameter& b) const { return a.name < b.name; }
-        bool operator()(const Parameter& a, std::string_view b) const { return a.name < b; }
-        bool operator()(std::string_view a, const Parameter& b) const { return a < b.name; }
-    };
-    std::set<Parameter, ByName> values_;
-};
-
+/// A balanced tree whose copies share what none of them has changed: a scene has millions of sets of
+/// attributes that differ in nothing of this, or each in a value from the one before. A copy takes no time, a
+/// change as long as the logarithm of how many values there are.
 class UserValues {
   public:
-    using Lists = std::map<std::string, CategoryValues>;
-
-    const Lists& lists() const { return lists_ ? *lists_ : none(); }
-    bool empty() const { return lists().empty(); }
-    bool contains(const std::string& category) const { return lists().contains(category); }
-    Lists::const_iterator find(const std::string& category) const { return lists().find(category); }
-    const CategoryValues& at(const std::string& category) const { return lists().at(category); }
-    Lists::const_iterator begin() const { return lists().begin(); }
-    Lists::const_iterator end() const { return lists().end(); }
-
-    /// The list of a category, to be changed in these values alone.
-    CategoryValues& change(const std::string& category) {
-        if (!lists_)
-            lists_ = std::make_shared<Lists>();
-        else if (lists_.use_count() > 1)
-            lists_ = std::make_shared<Lists>(*lists_);
-        return (*lists_)[category];
+    bool empty() const { return !root_; }
+    /// Null: nobody has set it. It stays where it is until these values change.
+    const Parameter* find(std::string_view category, std::string_view name) const;
+    /// Of "category:name", as shaders and conditions write it; without a category it is "user".
+    const Parameter* find(std::string_view full_name) const;
+    float float_or(std::string_view category, std::string_view name, float fallback) const {
+        return first_number(find(category, name), fallback);
     }
+    std::string string_or(std::string_view category, std::string_view name, std::string fallback) const {
+        return first_string(find(category, name), std::move(fallback));
+    }
+    /// Whether anything of a category is set.
+    bool has_category(std::string_view category) const;
+
+    /// Replaces the value of the same category and name, or adds one.
+    void set(std::string_view category, Parameter value);
+
+    /// Calls visit(category, parameter) of all values, in the order of categories and names.
+    template <typename Visit>
+    void for_each(const Visit& visit) const {
+        for_each_below(root_.get(), visit);
+    }
+
+    /// What these values take of memory and no earlier call has counted, of whatever values they share.
+    size_t count_bytes() const;
 
   private:
-    static const Lists& none() {
-        static const Lists nothing;
-        return nothing;
+    struct Value {
+        std::string category;
+        Parameter parameter;
+        mutable bool counted = false;  ///< by count_bytes()
+    };
+    struct Node;
+    using Tree = std::shared_ptr<const Node>;
+    /// Of an AVL tree; never changed, since several trees may have it.
+    struct Node {
+        std::shared_ptr<const Value> value;
+        Tree left, right;
+        int height = 1;
+        mutable bool counted = false;  ///< with all below it
+    };
+
+    template <typename Visit>
+    static void for_each_below(const Node* node, const Visit& visit) {
+        if (!node) return;
+        for_each_below(node->left.get(), visit);
+        visit(node->value->category, node->value->parameter);
+        for_each_below(node->right.get(), visit);
     }
-    std::shared_ptr<Lists> lists_;  ///< null: none
+    static int height_of(const Tree& tree) { return tree ? tree->height : 0; }
+    static Tree joined(std::shared_ptr<const Value> value, Tree left, Tree right);
+    static Tree balanced(const std::shared_ptr<const Value>& value, const Tree& left, const Tree& right);
+    static Tree with(const Tree& tree, const std::shared_ptr<const Value>& value);
+    static size_t count_bytes_below(const Node* node);
+
+    Tree root_;
 };
 
 }  // namespace trapeze

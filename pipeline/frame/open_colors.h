@@ -3,10 +3,10 @@
 
 #include <memory>
 
-#include "core/color_management.h"
+#include "core/colors/color_management.h"
+#include "core/colors/color_request.h"
 #include "core/diagnostics.h"
 #include "core/files/access.h"
-#include "core/scene/color_request.h"
 
 namespace trapeze {
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <string_view>
 
+#include "core/colors/color_request.h"
 #include "core/files/access.h"
 #include "core/picture_tile.h"
-#include "core/scene/color_request.h"
 #include "pipeline/frame/cull_hidden.h"
 #include "pipeline/frame/film_keeper.h"
 #include "pipeline/frame/film_watcher.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/color_management.h"
+#include "core/colors/color_management.h"
 #include "pipeline/preview/preview_picture.h"
 
 namespace trapeze {

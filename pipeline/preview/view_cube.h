@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/color_management.h"
+#include "core/colors/color_management.h"
 
 namespace trapeze {
 

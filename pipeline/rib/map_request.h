@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/colors/transfer.h"
 #include "core/diagnostics.h"
-#include "core/scene/transfer.h"
 
 namespace trapeze {
 

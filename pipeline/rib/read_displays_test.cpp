@@ -1,5 +1,5 @@
 /// Displays and what they show, and the imager before them.
-#include "core/scene/transfer.h"
+#include "core/colors/transfer.h"
 #include "pipeline/rib/reading_harness.h"
 
 namespace trapeze::testing {

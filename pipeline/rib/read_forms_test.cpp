@@ -103,7 +103,7 @@ TEST(ReadForms, OfParametersGivenTwiceTheFirstCounts) {
     EXPECT_THAT(outcome.messages[0],
                 HasSubstr("a.rib:2:28: warning: Surface: \"Kd\" is given twice; the first counts"));
     EXPECT_THAT(outcome.messages[1], HasSubstr("\"z\" has 1 values, needs a multiple of 2; left out"));
-    EXPECT_EQ(outcome.attributes().user.at("user").float_or("a", 0), 1);
+    EXPECT_EQ(outcome.attributes().user.float_or("user", "a", 0), 1);
     EXPECT_EQ(outcome.attributes().surface->parameters.float_or("z", 0), 4) << "of those that are right";
     const ReadOutcome plastic = read_world("Surface \"plastic\" \"Kd\" 0.5 \"Kd\" 0.25\n" + kSphere);
     EXPECT_EQ(plastic.attributes().surface->parameters.float_or("Kd", 0), 0.5f);

@@ -27,12 +27,11 @@ std::string in_words(const Attributes& a) {
     for (const std::string& group : r.groups) words << "group " << group << ' ';
     words << a.dice.binary << a.dice.raster_oriented << a.dice.min_length << ' ' << a.motion_factor << ' '
           << a.focus_factor;
-    for (const auto& [category, values] : a.user)
-        for (const Parameter& value : values) {
-            words << ' ' << category << ':' << value.name << '=';
-            for (const float number : value.floats) words << number;
-            for (const std::string& text : value.strings) words << text;
-        }
+    a.user.for_each([&](const std::string& category, const Parameter& value) {
+        words << ' ' << category << ':' << value.name << '=';
+        for (const float number : value.floats) words << number;
+        for (const std::string& text : value.strings) words << text;
+    });
     return words.str();
 }
 
@@ -131,7 +130,7 @@ TEST(ReadObjects, ObjectsInObjectsKeepTheirOwn) {
     EXPECT_EQ(outcome.attributes().color, V3f(1, 1, 1));
     EXPECT_EQ(outcome.attributes().opacity, V3f(1, 1, 1));
     EXPECT_EQ(outcome.attributes().sides, 1);
-    EXPECT_EQ(outcome.attributes().user.at("user").float_or("x", 0), 1);
+    EXPECT_EQ(outcome.attributes().user.float_or("user", "x", 0), 1);
 }
 
 TEST(ReadObjects, BlocksEndWhatADefinitionHasOfItsOwn) {

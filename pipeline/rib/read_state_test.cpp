@@ -306,9 +306,9 @@ TEST(ReadState, OtherAttributesAreKeptAsTheyLook) {
     EXPECT_THAT(r.messages, IsEmpty());
     EXPECT_EQ(r.attributes().name, "ball");
     EXPECT_FALSE(r.attributes().visible_to_camera);
-    EXPECT_EQ(r.attributes().user.at("dice").float_or("rasterorient", 1), 0);
-    EXPECT_EQ(r.attributes().user.at("user").string_or("who", ""), "me");
-    EXPECT_EQ(r.attributes().user.at("user").find("unheard")->floats.size(), 2u);
+    EXPECT_EQ(r.attributes().user.float_or("dice", "rasterorient", 1), 0);
+    EXPECT_EQ(r.attributes().user.string_or("user", "who", ""), "me");
+    EXPECT_EQ(r.attributes().user.find("user", "unheard")->floats.size(), 2u);
 }
 
 TEST(ReadState, ShaderParameters) {

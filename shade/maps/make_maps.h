@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/scene/transfer.h"
+#include "core/colors/transfer.h"
 
 namespace trapeze {
 

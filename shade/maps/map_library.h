@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "core/color_management.h"
+#include "core/colors/color_management.h"
+#include "core/colors/transfer.h"
 #include "core/files/module.h"
 #include "core/math.h"
-#include "core/scene/transfer.h"
 #include "shade/maps/cube_faces.h"
 #include "shade/maps/map_lookups.h"
 #include "shade/maps/map_space.h"

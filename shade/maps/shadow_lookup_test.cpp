@@ -115,7 +115,7 @@ TEST_F(ShadowLookupTest, BiasIsTheShadersThenTheRenders) {
     options.bias = 0.25f;
     EXPECT_EQ(hidden(file, behind, options), 1);
 
-    options_.user["shadow"].set({"bias", {StorageClass::Uniform, ValueType::Float, 1}, {1}, {}});
+    options_.user.set("shadow", {"bias", {StorageClass::Uniform, ValueType::Float, 1}, {1}, {}});
     Textures biased(options_, &diagnostics_);
     const Plane out = plane(kLanes, -1);
     biased.shadow(biased.find_shadow(file, {}), {{plane({-0.5f}), {}, plane({5.5f})}, {}, {}}, M44f(), {},

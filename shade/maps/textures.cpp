@@ -16,8 +16,7 @@ namespace {
 constexpr float kDefaultMemoryMegabytes = 256, kMostConfinedMegabytes = 1024;
 
 float option(const Options& options, const char* category, const char* name, float fallback) {
-    const auto list = options.user.find(category);
-    return list == options.user.end() ? fallback : list->second.float_or(name, fallback);
+    return options.user.float_or(category, name, fallback);
 }
 
 float memory_megabytes_of(const Options& options) {

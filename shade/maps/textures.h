@@ -22,13 +22,13 @@
 #include <string>
 #include <string_view>
 
-#include "core/color_management.h"
+#include "core/colors/color_management.h"
+#include "core/colors/transfer.h"
 #include "core/depth_height.h"
 #include "core/diagnostics.h"
 #include "core/files/access.h"
 #include "core/math.h"
 #include "core/scene/scene.h"
-#include "core/scene/transfer.h"
 #include "shade/maps/map_lookups.h"
 
 namespace trapeze {

@@ -5,8 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "core/colors/transfer.h"
 #include "core/files/output_file.h"
-#include "core/scene/transfer.h"
 #include "pipeline/cli/commands/commands.h"
 #include "pipeline/cli/commands/pictures_of_maps.h"
 #include "pipeline/cli/commands/run_checkpoint.h"

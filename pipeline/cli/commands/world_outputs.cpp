@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "composite/displays/display_plan.h"
+#include "core/colors/transfer.h"
 #include "core/scene/adaptive_sampling.h"
 #include "core/scene/light_groups.h"
-#include "core/scene/transfer.h"
 #include "pipeline/cli/support/named_aovs.h"
 
 namespace trapeze {
@@ -96,8 +96,7 @@ void WorldOutputs::override_options(Options& options) const {
 /// What the scene would keep in floats, and the command line wants as a file of 8 bits, is to be looked at:
 /// by the curve of screens, where nobody says how. Whether it is.
 bool WorldOutputs::encode_for_viewing(Display& display, const Options& options) const {
-    const auto color = options.user.find("color");
-    const bool is_said = color != options.user.end() && color->second.find("transfer");
+    const bool is_said = options.user.find("color", "transfer");
     const bool is_managed = replaced(color_request_of(options), arguments_.colors).asks();
     if (is_said || is_managed || display.parameters.find("colorspace")) return false;
     display.parameters.set({"colorspace", {StorageClass::Uniform, ValueType::String, 1}, {}, {"auto"}});

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/colors/color_request.h"
 #include "core/picture_tile.h"
-#include "core/scene/color_request.h"
 #include "pipeline/cli/support/parse_values.h"
 #include "pipeline/preview/viewer_address.h"
 #include "pipeline/study/scenes/scenes.h"

@@ -27,14 +27,6 @@ ConditionValue value_of(const Parameter* parameter) {
     return {{parameter->floats.begin(), parameter->floats.end()}, {}};
 }
 
-/// "category:name"; a name alone is the user's.
-ConditionValue user_value(const UserValues::Lists& lists, const std::string& name) {
-    const size_t colon = name.find(':');
-    const auto list = lists.find(colon == std::string::npos ? "user" : name.substr(0, colon));
-    if (list == lists.end()) return {};
-    return value_of(list->second.find(colon == std::string::npos ? name : name.substr(colon + 1)));
-}
-
 /// Attributes that have requests of their own, by the names of those; others are the user's. Numbers of the
 /// state itself, and not texts of the file: what a request set, the program's defaults, and later changes
 /// look alike.
@@ -45,7 +37,7 @@ ConditionValue attribute_value(const Attributes& a, const std::string& name) {
     if (name == "Matte") return {{static_cast<double>(a.matte)}, {}};
     if (name == "Sides") return {{static_cast<double>(a.sides)}, {}};
     if (name == "Surface" && a.surface) return {{}, a.surface->name};
-    return user_value(a.user.lists(), name);
+    return value_of(a.user.find(name));
 }
 
 /// Options likewise; Frame is the number of FrameBegin.
@@ -57,7 +49,7 @@ ConditionValue option_value(const Options& o, const std::string& name) {
     if (name == "Shutter") return {{o.shutter_open, o.shutter_close}, {}};
     if (name == "Clipping") return {{o.near_clip, o.far_clip}, {}};
     if (name == "Hider") return {{}, o.hider};
-    return user_value(o.user, name);
+    return value_of(o.user.find(name));
 }
 
 }  // namespace
@@ -178,9 +170,7 @@ void ConditionalBlocks::end_stream(size_t outer, bool is_whole) {
 void ConditionalBlocks::substitute(RequestText& request) const {
     if (state_.options().user.empty() || is_conditional(request.name)) return;
     for (const char* category : {"ribparse", "rib"}) {
-        const auto list = state_.options().user.find(category);
-        if (list == state_.options().user.end()) continue;
-        const std::string marker = list->second.string_or("varsubst", "");
+        const std::string marker = state_.options().user.string_or(category, "varsubst", "");
         if (marker.empty()) continue;
         for (Argument& argument : request.arguments)
             for (std::string& text : argument.strings)

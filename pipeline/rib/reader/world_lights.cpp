@@ -35,15 +35,12 @@ std::vector<M44f> placed_poses(const LightInstance& light, const M44f& camera_fr
 
 /// Path tracers' surfaces are in the way of light unless Attribute "visibility" says otherwise.
 bool is_in_the_way(const Attributes& attributes) {
-    if (attributes.user.contains("render")) return false;
-    const auto visibility = attributes.user.find("visibility");
-    return visibility == attributes.user.end() || !visibility->second.find("transmission");
+    return !attributes.user.has_category("render") && !attributes.user.find("visibility", "transmission");
 }
 
 /// Paths have a time each, unless Attribute "trace" says otherwise.
 bool sees_motion(const Attributes& attributes) {
-    const auto trace = attributes.user.find("trace");
-    return trace == attributes.user.end() || !trace->second.find("samplemotion");
+    return !attributes.user.find("trace", "samplemotion");
 }
 
 /// Others keep their numbers, and with them what is random of them, wherever a light is added.

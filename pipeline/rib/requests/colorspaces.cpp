@@ -1,4 +1,4 @@
-/// Transfers are named as core/scene/transfer.h lists them; "" is none of them.
+/// Transfers are named as core/colors/transfer.h lists them; "" is none of them.
 #include "pipeline/rib/requests/colorspaces.h"
 
 #include "pipeline/rib/syntax/arguments.h"

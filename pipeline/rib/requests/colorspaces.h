@@ -1,7 +1,7 @@
-/// What a file says of how numbers of pictures stand for light (core/scene/transfer.h).
+/// What a file says of how numbers of pictures stand for light (core/colors/transfer.h).
 #pragma once
 
-#include "core/scene/transfer.h"
+#include "core/colors/transfer.h"
 #include "pipeline/rib/reader/request_report.h"
 
 namespace trapeze::rib {

@@ -346,7 +346,7 @@ void option(OptionContext& r, ArgumentCursor& c) {
             o.max_ray_depth = ray_depth(r.report, value.floats[0]);
         if (category == "trace" && value.name == "levels" && !value.floats.empty())
             o.ray_levels = static_cast<int>(std::clamp(value.floats[0], 0.0f, float{kMostRayLevels}));
-        o.user[category].set(value);
+        o.user.set(category, value);
     }
 }
 

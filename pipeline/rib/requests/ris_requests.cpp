@@ -115,9 +115,7 @@ constexpr RequestRow kRisRequests[] = {
 /// in when the first primitive comes (SceneBuilder::place_emitter).
 void add_ris_light(LightContext& r, const std::string& handle, const ShaderInstance& shader,
                    const RisParameters& parameters, bool is_area_light) {
-    const auto lighting = r.state.attributes().attributes.user.find("lighting");
-    if (lighting != r.state.attributes().attributes.user.end() && lighting->second.float_or("mute", 0) != 0)
-        return;
+    if (r.state.attributes().attributes.user.float_or("lighting", "mute", 0) != 0) return;
     const int samples = light_samples(r);
     if (is_mesh_light(shader.name, is_area_light)) {
         auto emitter = std::make_shared<Emitter>();
@@ -140,11 +138,9 @@ void add_ris_light(LightContext& r, const std::string& handle, const ShaderInsta
 /// An attribute that is there and wrong is said, and the next name is tried.
 int light_samples(const LightContext& r) {
     const auto& user = r.state.attributes().attributes.user;
-    const auto of_lights = user.find("light");
-    if (of_lights == user.end()) return LightShape::kDefaultSamples;
     for (const char* name : {"nsamples", "samples"}) {
-        if (!of_lights->second.find(name)) continue;
-        const float given = of_lights->second.float_or(name, 0);
+        if (!user.find("light", name)) continue;
+        const float given = user.float_or("light", name, 0);
         if (given >= 1 && given <= LightShape::kMostSamples) return static_cast<int>(given);
         r.report.warn_once(fmt::format("Attribute \"light\" \"{}\" must be 1 to {}; {} are used", name,
                                        LightShape::kMostSamples, LightShape::kDefaultSamples),

@@ -101,9 +101,7 @@ bool has_handle(const ArgumentCursor& c) {
 /// standard lights by their kin with maps, which take "raytrace" for one. Others have shaders of their own
 /// for that.
 void cast_shadows(LightContext& r, ShaderInstance& shader) {
-    const auto& user = r.state.attributes().attributes.user;
-    const auto light = user.find("light");
-    if (light == user.end() || light->second.string_or("shadows", "") != "on") return;
+    if (r.state.attributes().attributes.user.string_or("light", "shadows", "") != "on") return;
     const auto trace = [&](const char* name, std::initializer_list<const char*> maps) {
         shader.name = name;
         for (const char* const map : maps) {

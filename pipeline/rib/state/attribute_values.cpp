@@ -21,14 +21,12 @@ void set_dice(Attributes::Dice& dice, const std::string& name, float value) {
     if (name == "minlength") dice.min_length = std::max(value, 0.0f);
 }
 
-/// Lists are shared between states until one of them changes: what is there already changes none.
+/// States share values until one of them changes any: what is there already changes none.
 void keep(const std::string& category, const Parameter& value, UserValues& user) {
-    if (const auto list = user.find(category); list != user.end())
-        if (const Parameter* const old = list->second.find(value.name); old && old->floats == value.floats &&
-                                                                        old->strings == value.strings &&
-                                                                        old->declaration == value.declaration)
-            return;
-    user.change(category).set(value);
+    const Parameter* const old = user.find(category, value.name);
+    if (!old || old->floats != value.floats || old->strings != value.strings ||
+        old->declaration != value.declaration)
+        user.set(category, value);
 }
 
 }  // namespace

@@ -63,11 +63,8 @@ size_t bytes_of(const Shape& shape) {
 }
 
 size_t bytes_of(const Attributes& attributes) {
-    size_t bytes = sizeof attributes + bytes_of(attributes.lights) + attributes.name.capacity() +
-                   attributes.asset.capacity();
-    for (const auto& [category, values] : attributes.user)
-        bytes += sizeof category + sizeof values + bytes_of_all(values);
-    return bytes;
+    return sizeof attributes + bytes_of(attributes.lights) + attributes.name.capacity() +
+           attributes.asset.capacity() + attributes.user.count_bytes();
 }
 
 size_t bytes_of(const Primitive& primitive) {

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "core/color_management.h"
+#include "core/colors/color_management.h"
 #include "shade/maps/openimageio/wrapping_image_input.h"
 
 namespace trapeze {

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "core/scene/transfer.h"
+#include "core/colors/transfer.h"
 #include "shade/maps/openimageio/wrapping_image_input.h"
 
 namespace trapeze {

@@ -1,11 +1,9 @@
-#include "core/scene/color_request.h"
+#include "core/colors/color_request.h"
 
 namespace trapeze {
 
 ColorRequest color_request_of(const Options& options) {
-    const auto given = options.user.find("ocio");
-    if (given == options.user.end()) return {};
-    const auto named = [&](const char* name) { return given->second.string_or(name, ""); };
+    const auto named = [&](const char* name) { return options.user.string_or("ocio", name, ""); };
     return {named("config"), named("display"), named("view"), named("look"), named("workingspace")};
 }
 

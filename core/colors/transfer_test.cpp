@@ -1,4 +1,4 @@
-#include "core/scene/transfer.h"
+#include "core/colors/transfer.h"
 
 #include <gtest/gtest.h>
 

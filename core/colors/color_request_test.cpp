@@ -1,4 +1,4 @@
-#include "core/scene/color_request.h"
+#include "core/colors/color_request.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@ Parameter ocio_value(const char* name, const char* text) {
 TEST(ColorRequest, IsWhatTheOptionSays) {
     Options options;
     EXPECT_FALSE(color_request_of(options).asks());
-    options.user["ocio"].set(ocio_value("config", "studio.ocio"));
-    options.user["ocio"].set(ocio_value("workingspace", "acescg"));
+    options.user.set("ocio", ocio_value("config", "studio.ocio"));
+    options.user.set("ocio", ocio_value("workingspace", "acescg"));
     const ColorRequest request = color_request_of(options);
     EXPECT_TRUE(request.asks());
     EXPECT_EQ(request.config, "studio.ocio");

@@ -1,4 +1,4 @@
-#include "core/scene/transfer.h"
+#include "core/colors/transfer.h"
 
 #include <algorithm>
 #include <cctype>
@@ -17,9 +17,7 @@ std::optional<Transfer> transfer_named(std::string_view name) {
 }
 
 Transfer transfer_of(const Options& options) {
-    const auto color = options.user.find("color");
-    if (color == options.user.end()) return Transfer::Linear;
-    return transfer_named(color->second.string_or("transfer", "")).value_or(Transfer::Linear);
+    return transfer_named(options.user.string_or("color", "transfer", "")).value_or(Transfer::Linear);
 }
 
 void set_transfer(Options& options, std::string_view name) {
@@ -27,7 +25,7 @@ void set_transfer(Options& options, std::string_view name) {
     value.name = "transfer";
     value.declaration = {StorageClass::Uniform, ValueType::String, 1};
     value.strings = {std::string(name)};
-    options.user["color"].set(std::move(value));
+    options.user.set("color", std::move(value));
 }
 
 }  // namespace trapeze
