@@ -51,7 +51,8 @@ struct Encoding {
 };
 
 /// Colours are associated (premultiplied) in the picture and in TIFF; other formats with alpha want them
-/// divided by it. JPEG holds no alpha. A variable has its own channels and no alpha.
+/// divided by it, and where it is 0, as in a glow, get them as they are (OpenImageIO does the same). JPEG
+/// holds no alpha. A variable has its own channels and no alpha.
 Encoding encoding_of(const PictureToWrite& picture) {
     const DisplayPlan& plan = picture.plan;
     Encoding e;
@@ -80,7 +81,7 @@ Encoding encoding_of(const PictureToWrite& picture) {
 float encoded(const Encoding& e, const float* pixel, int channel) {
     if (channel == 3) return pixel[3];
     float value = pixel[channel];
-    if (e.unassociated) value = pixel[3] > 0 ? value / pixel[3] : 0;
+    if (e.unassociated && pixel[3] > 0) value /= pixel[3];
     return e.srgb ? srgb_encoded(value) : value;
 }
 

@@ -103,7 +103,9 @@ TEST(ViewsOfDisplays, LeaveAlphaAndSeeColoursAsTheFileHasThem) {
                   {0.09765625, 0.0625, 0.25, 0.5});
     expect_levels(write_view({.extension = "tif", .mode = "rgba", .color = half, .alpha = 0.5f}),
                   {0.09765625 / 4, 0.0625 / 4, 0.25 / 4, 0.5});
-    expect_levels(write_view({.mode = "rgba", .color = half, .alpha = 0}), {0, 0, 0, 0});
+    // A glow has colour where nothing is.
+    expect_levels(write_view({.mode = "rgba", .color = half, .alpha = 0}),
+                  {0.09765625 / 4, 0.0625 / 4, 0.25 / 4, 0});
     expect_levels(write_view({.mode = "a", .color = half, .alpha = 0.5f}), {0.5});
 }
 
