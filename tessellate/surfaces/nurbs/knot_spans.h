@@ -37,6 +37,10 @@ class KnotSpans {
     float share_of_range(int span, float t) const;
     float share_of_segment(int span, float t) const;
 
+    /// The share of the whole range at which a span begins.
+    double begin_of_share(int span) const {
+        return (spans_[span].begin - spans_.front().begin) / total_length();
+    }
     /// How many spans lie before a share of the whole range, in spans and parts of them; goes on evenly
     /// beyond the range.
     double spans_before(double share) const;

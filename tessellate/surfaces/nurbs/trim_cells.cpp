@@ -4,46 +4,17 @@
 #include <cmath>
 #include <map>
 
+#include "core/random.h"
+#include "tessellate/surfaces/nurbs/cell_outlines.h"
 #include "tessellate/topology/triangulate.h"
 
 namespace trapeze {
 namespace {
 
-/// A loop's part within a cell, from one crossing of the cell's border to another.
-struct Path {
-    std::vector<int> vertices;  ///< both crossings included
-};
-
-/// What loops do in one cell.
-struct CellPaths {
-    std::vector<Path> paths;
-    std::vector<std::vector<int>> closed;  ///< loops that never leave the cell
-};
-
-/// The area of a polygon of point numbers, positive when it runs anticlockwise.
-double signed_area(const std::vector<V2d>& points, const std::vector<int>& polygon) {
-    double sum = 0;
-    for (size_t i = 0; i < polygon.size(); ++i) {
-        const V2d &a = points[polygon[i]], &b = points[polygon[(i + 1) % polygon.size()]];
-        sum += a.x * b.y - a.y * b.x;
-    }
-    return sum / 2;
-}
-
-/// Whether a point is inside, by the even-odd rule.
-bool is_within(const V2d& p, const std::vector<V2d>& points, const std::vector<int>& polygon) {
-    bool within = false;
-    for (size_t i = 0; i < polygon.size(); ++i) {
-        const V2d &a = points[polygon[i]], &b = points[polygon[(i + 1) % polygon.size()]];
-        if ((a.y <= p.y) != (b.y <= p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x))
-            within = !within;
-    }
-    return within;
-}
-
 /// First all loops are added, which finds where they cross the grid's lines and what they do in each cell;
 /// then cells are cut one by one. Crossings are vertices of both cells at a line, so that pieces share them.
-/// Points are moved off the grid's lines first, so that no corner of a cell and no line needs a special case.
+/// Points are moved a little first, so that no corner of a cell, no line and no meeting of loops needs a
+/// special case.
 class Cutter {
   public:
     Cutter(int nx, int ny, bool keep_outside)
@@ -66,17 +37,11 @@ class Cutter {
     /// Whether a corner of cells is on the side that is kept: by counting the crossings to its left on its
     /// line.
     bool corner_kept(int i, int j) const;
-    /// Adds the faces of one cell; `paths` is null where no loop comes.
-    void cut_cell(int i, int j, const CellPaths* paths);
-    struct BorderNode {
-        int vertex = 0;
-        bool kept_after = false;  ///< the border from here to the next node
-    };
+    /// Adds the faces of one cell.
+    void cut_cell(int i, int j, const CellLoops& loops);
     /// A cell's corners and crossings, anticlockwise from its least corner.
-    std::vector<BorderNode> border(int i, int j);
-    void add_side(std::vector<BorderNode>& nodes, const Edge& edge, bool forwards, int from);
-    std::vector<std::vector<int>> outlines(const std::vector<BorderNode>& nodes,
-                                           const std::vector<Path>& paths) const;
+    std::vector<CellBorderNode> border(int i, int j);
+    void add_side(std::vector<CellBorderNode>& nodes, const Edge& edge, bool forwards, int from);
     /// Adds a piece of a cell, whole if it is convex and has few corners, else in triangles.
     void emit(int i, int j, const std::vector<int>& outline, const std::vector<std::vector<int>>& holes);
     bool is_convex(const std::vector<int>& polygon) const;
@@ -90,8 +55,9 @@ class Cutter {
         row_crossings_;  ///< by horizontal grid line: places along x, all of them
     /// Vertices where loops cross an edge of a cell; sorted along it when all loops have been added.
     std::map<Edge, std::vector<int>> edge_crossings_;
-    std::map<std::pair<int, int>, CellPaths> cells_;
+    std::map<std::pair<int, int>, CellLoops> cells_;
     std::map<std::pair<int, int>, int> corners_;
+    uint32_t points_added_ = 0;  ///< of all loops
 };
 
 /// A coordinate moved off the grid's lines, on none of which a point may lie: then every crossing is one of
@@ -101,6 +67,16 @@ double off_lines(double x, int n) {
     if (std::abs(x) < kMove) return -kRim;
     if (std::abs(x - n) < kMove) return n + kRim;
     return std::abs(x - std::round(x)) < kNear ? std::round(x) + kMove : x;
+}
+
+/// Moves a point by less than points are off the lines, each by its number: then loops that go through
+/// corners of cells, through points of each other or along each other only cross.
+V2d jittered(const V2d& p, uint32_t number) {
+    constexpr double kMost = 4e-7;
+    const auto off = [&](uint32_t axis) {
+        return kMost * (2 * static_cast<double>(unit_float(hash(number, axis))) - 1);
+    };
+    return p + V2d(off(0), off(1));
 }
 
 /// Crossings of a segment with the grid's lines, as vertices in the order of the segment. Crossings beyond
@@ -133,7 +109,7 @@ void Cutter::cross(const V2d& p, const V2d& q, std::vector<std::pair<double, int
 /// Follows the loop once and cuts it into paths at its crossings; a path belongs to the cell in which its
 /// first piece lies. The first path is completed when the loop comes round.
 void Cutter::add_loop(std::vector<V2d> loop) {
-    for (V2d& p : loop) p = {off_lines(p.x, nx_), off_lines(p.y, ny_)};
+    for (V2d& p : loop) p = jittered({off_lines(p.x, nx_), off_lines(p.y, ny_)}, points_added_++);
     std::vector<int> path, head;  // the head belongs to the path that ends the loop
     bool crossed = false;
     std::vector<std::pair<double, int>> crossings;
@@ -144,7 +120,7 @@ void Cutter::add_loop(std::vector<V2d> loop) {
         } else if (path.size() >= 2) {
             const V2d middle = (out_.points[path[0]] + out_.points[path[1]]) * 0.5;
             const int i = static_cast<int>(std::floor(middle.x)), j = static_cast<int>(std::floor(middle.y));
-            if (is_cell(i, j)) cells_[{i, j}].paths.push_back({path});
+            if (is_cell(i, j)) cells_[{i, j}].paths.push_back(path);
         }
         crossed = true;
         path = {vertex};
@@ -181,7 +157,7 @@ bool Cutter::corner_kept(int i, int j) const {
 
 /// The nodes of one side of a cell from its corner `from` on, without the corner at its end. What is kept
 /// along an edge is counted from its least corner, for both cells alike.
-void Cutter::add_side(std::vector<BorderNode>& nodes, const Edge& edge, bool forwards, int from) {
+void Cutter::add_side(std::vector<CellBorderNode>& nodes, const Edge& edge, bool forwards, int from) {
     // At each crossing the side changes from kept to cut away, or back.
     const bool kept = corner_kept(edge[1], edge[2]);
     const auto found = edge_crossings_.find(edge);
@@ -193,61 +169,13 @@ void Cutter::add_side(std::vector<BorderNode>& nodes, const Edge& edge, bool for
             {found->second[forwards ? k : count - 1 - k], kept_in(forwards ? k + 1 : count - 1 - k)});
 }
 
-std::vector<Cutter::BorderNode> Cutter::border(int i, int j) {
-    std::vector<BorderNode> nodes;
+std::vector<CellBorderNode> Cutter::border(int i, int j) {
+    std::vector<CellBorderNode> nodes;
     add_side(nodes, {0, i, j}, true, corner(i, j));
     add_side(nodes, {1, i + 1, j}, true, corner(i + 1, j));
     add_side(nodes, {0, i, j + 1}, false, corner(i + 1, j + 1));
     add_side(nodes, {1, i, j}, false, corner(i, j + 1));
     return nodes;
-}
-
-/// The outlines of what is kept of a cell: along the kept border, then along the loop that ends it to where
-/// the kept border begins again. A run of border whose loop leads elsewhere is closed by a straight line.
-std::vector<std::vector<int>> Cutter::outlines(const std::vector<BorderNode>& nodes,
-                                               const std::vector<Path>& paths) const {
-    const size_t n = nodes.size();
-    std::vector<std::vector<int>> result;
-    std::map<int, size_t> run_starts;  // by vertex
-    for (size_t k = 0; k < n; ++k)
-        if (nodes[k].kept_after && !nodes[(k + n - 1) % n].kept_after) run_starts[nodes[k].vertex] = k;
-    if (run_starts.empty()) {
-        if (n > 0 && nodes[0].kept_after) {
-            result.emplace_back();
-            for (const BorderNode& node : nodes) result.back().push_back(node.vertex);
-        }
-        return result;
-    }
-    std::map<int, std::pair<const Path*, bool>> path_at;  // by end; whether it begins there
-    for (const Path& path : paths) {
-        path_at[path.vertices.front()] = {&path, true};
-        path_at[path.vertices.back()] = {&path, false};
-    }
-    // Each kept run of border belongs to one outline; one after another is followed around.
-    while (!run_starts.empty()) {
-        const int first = run_starts.begin()->first;
-        std::vector<int> outline;
-        for (auto run = run_starts.begin(); run != run_starts.end();) {
-            size_t k = run->second;
-            run_starts.erase(run);
-            for (; nodes[k].kept_after; k = (k + 1) % n) outline.push_back(nodes[k].vertex);
-            const int end = nodes[k].vertex;
-            outline.push_back(end);
-            const auto path = path_at.find(end);
-            if (path == path_at.end()) break;
-            const std::vector<int>& v = path->second.first->vertices;
-            const bool forwards = path->second.second;
-            const int other = forwards ? v.back() : v.front();
-            const auto next = run_starts.find(other);
-            if (other != first && next == run_starts.end()) break;
-            for (size_t p = 1; p + 1 < v.size(); ++p)
-                outline.push_back(forwards ? v[p] : v[v.size() - 1 - p]);
-            if (other == first) break;
-            run = next;
-        }
-        result.push_back(std::move(outline));
-    }
-    return result;
 }
 
 /// Straight corners count as convex; a polygon that winds twice would pass, but outlines do not.
@@ -271,7 +199,6 @@ void Cutter::emit_face(int i, int j, std::vector<int> polygon) {
 /// Faces of many corners would be cut at their centre into as many pieces as corners; triangles are fewer.
 void Cutter::emit(int i, int j, const std::vector<int>& outline, const std::vector<std::vector<int>>& holes) {
     constexpr size_t kMostCellCorners = 8;
-    if (outline.size() < 3) return;
     if (holes.empty() && outline.size() <= kMostCellCorners && is_convex(outline))
         return emit_face(i, j, outline);
     std::vector<int> vertices = outline, sizes{static_cast<int>(outline.size())};
@@ -281,33 +208,13 @@ void Cutter::emit(int i, int j, const std::vector<int>& outline, const std::vect
     }
     std::vector<V2d> points;
     for (const int v : vertices) points.push_back(out_.points[v]);
-    // Triangles run the way of the outline; faces run anticlockwise.
-    const bool turned = signed_area(out_.points, outline) < 0;
-    for (const std::array<int, 3>& t : triangulate(points, sizes)) {
-        std::vector<int> triangle{vertices[t[0]], vertices[t[1]], vertices[t[2]]};
-        if (turned) std::swap(triangle[1], triangle[2]);
-        emit_face(i, j, std::move(triangle));
-    }
+    for (const std::array<int, 3>& t : triangulate(points, sizes))
+        emit_face(i, j, {vertices[t[0]], vertices[t[1]], vertices[t[2]]});
 }
 
-void Cutter::cut_cell(int i, int j, const CellPaths* paths) {
-    static const CellPaths kNone;
-    const CellPaths& in_cell = paths ? *paths : kNone;
-    const std::vector<BorderNode> nodes = border(i, j);
-    const std::vector<std::vector<int>> pieces = outlines(nodes, in_cell.paths);
-    // A loop that stays within the cell is a hole of the piece that holds it, or else a piece of its own.
-    std::vector<std::vector<std::vector<int>>> holes(pieces.size());
-    for (const std::vector<int>& loop : in_cell.closed) {
-        const auto holds = [&](const std::vector<int>& piece) {
-            return is_within(out_.points[loop[0]], out_.points, piece);
-        };
-        const auto piece = std::ranges::find_if(pieces, holds);
-        if (piece == pieces.end())
-            emit(i, j, loop, {});
-        else
-            holes[piece - pieces.begin()].push_back(loop);
-    }
-    for (size_t k = 0; k < pieces.size(); ++k) emit(i, j, pieces[k], holes[k]);
+void Cutter::cut_cell(int i, int j, const CellLoops& loops) {
+    for (const CellOutline& outline : outlines_of_cell(border(i, j), loops, out_.points))
+        emit(i, j, outline.outer, outline.holes);
 }
 
 /// Cells without loops are kept or left out whole, by their corners.
@@ -319,7 +226,7 @@ TrimmedCells Cutter::cut() {
     for (int j = 0; j < ny_; ++j)
         for (int i = 0; i < nx_; ++i) {
             const auto found = cells_.find({i, j});
-            cut_cell(i, j, found == cells_.end() ? nullptr : &found->second);
+            cut_cell(i, j, found == cells_.end() ? CellLoops() : found->second);
         }
     return std::move(out_);
 }

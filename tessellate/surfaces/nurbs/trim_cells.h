@@ -24,7 +24,7 @@ struct TrimmedCells {
 
 /// Cuts nx x ny cells by loops (points in cells, each closed from its last point to its first) and keeps what
 /// is inside, or outside. The inside is what a ray leaves through loops an odd number of times [RISpec 5.2].
-/// Where loops cross themselves or each other within a cell the border may run straight through it.
+/// Loops may cross themselves and each other, and lie in each other.
 TrimmedCells trim_cells(std::vector<std::vector<V2d>> loops, int nx, int ny, bool keep_outside);
 
 }  // namespace trapeze

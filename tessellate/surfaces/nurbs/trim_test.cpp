@@ -108,6 +108,112 @@ TEST(TrimCells, LoopsThatCrossThemselvesAreSurvived) {
     }
 }
 
+/// How many loops are left on the way from a point to the left.
+int loops_around(const V2d& p, const std::vector<Loop>& loops) {
+    int count = 0;
+    for (const Loop& loop : loops)
+        for (size_t k = 0; k < loop.size(); ++k) {
+            const V2d &a = loop[k], &b = loop[(k + 1) % loop.size()];
+            count += (a.y <= p.y) != (b.y <= p.y) && a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) < p.x;
+        }
+    return count;
+}
+
+/// How many faces hold a point.
+int faces_at(const V2d& p, const TrimmedCells& cells) {
+    int count = 0;
+    size_t first = 0;
+    for (const int n : cells.vertices_per_face) {
+        bool inside = true;
+        for (int k = 0; k < n; ++k) {
+            const V2d &a = cells.points[cells.vertices[first + k]],
+                      &b = cells.points[cells.vertices[first + (k + 1) % n]];
+            inside = inside && (b - a).cross(p - a) >= 0;
+        }
+        count += inside;
+        first += n;
+    }
+    return count;
+}
+
+double distance(const V2d& p, const V2d& a, const V2d& b) {
+    const double t = std::clamp((p - a).dot(b - a) / std::max((b - a).length2(), 1e-30), 0.0, 1.0);
+    return (a + (b - a) * t - p).length();
+}
+
+/// Each of many points is held by one face or none, as the loops say; but for points on them.
+void expect_even_odd(const std::vector<Loop>& loops, int n, const std::string& what) {
+    for (const bool outside : {false, true}) {
+        const TrimmedCells cells = trim_cells(loops, n, n, outside);
+        int wrong = 0, looked_at = 0;
+        for (uint32_t s = 0; s < 400; ++s) {
+            const V2d p(n * static_cast<double>(unit_float(hash(s, 1))),
+                        n * static_cast<double>(unit_float(hash(s, 2))));
+            bool on_loop = false;
+            for (const Loop& loop : loops)
+                for (size_t k = 0; k < loop.size(); ++k)
+                    on_loop = on_loop || distance(p, loop[k], loop[(k + 1) % loop.size()]) < 2e-3;
+            if (on_loop) continue;
+            ++looked_at;
+            wrong += faces_at(p, cells) != ((loops_around(p, loops) % 2 == 1) != outside);
+        }
+        EXPECT_GT(looked_at, 100) << what;
+        EXPECT_EQ(wrong, 0) << what << (outside ? ", outside" : ", inside") << " of " << looked_at;
+    }
+}
+
+TEST(TrimCells, LoopsMayCrossThemselvesAndEachOther) {
+    for (uint32_t seed = 0; seed < 40; ++seed) {
+        std::vector<Loop> loops(1 + seed % 3);
+        // Also all within a cell, and of few points, on lines and corners of cells.
+        const double side = seed % 4 == 0 ? 1 : 8;
+        for (uint32_t l = 0; l < loops.size(); ++l)
+            for (uint32_t i = 0; i < 3 + seed % 9; ++i) {
+                const auto at = [&](uint32_t axis) {
+                    const double x = static_cast<double>(unit_float(hash(seed, l, i, axis)));
+                    return seed % 5 == 0 ? std::round(x * 8) / 8 * side : side * x;
+                };
+                loops[l].push_back(V2d(at(0), at(1)));
+            }
+        expect_even_odd(loops, side == 1 ? 1 : 8, "seed " + std::to_string(seed));
+    }
+}
+
+TEST(TrimCells, LoopsMayLieWithinEachOtherInACell) {
+    std::vector<Loop> rings;
+    for (int k = 0; k < 7; ++k) rings.push_back(ring(V2d(0.5, 0.5), 0.45 - 0.06 * k, 8 + k));
+    for (size_t k = 1; k <= rings.size(); ++k)
+        expect_even_odd({rings.begin(), rings.begin() + static_cast<std::ptrdiff_t>(k)}, 1,
+                        std::to_string(k) + " rings");
+    // Beside each other, each with a hole.
+    expect_even_odd({ring(V2d(0.25, 0.5), 0.2, 9), ring(V2d(0.25, 0.5), 0.1, 7), ring(V2d(0.75, 0.5), 0.2, 9),
+                     ring(V2d(0.75, 0.5), 0.1, 5)},
+                    1, "two rings");
+}
+
+TEST(TrimCells, LoopsMayGoThroughCornersOfCells) {
+    const std::vector<Loop> loops[] = {
+        {{{4, 2}, {6, 4}, {4, 6}, {2, 4}}},
+        {{{2, 2}, {6, 2}, {6, 6}}},
+        {{{0, 0}, {8, 0}, {8, 8}}},
+        {{{0, 0}, {8, 0}, {8, 8}, {0, 8}}, {{2.4, 2.4}, {4.8, 2.4}, {4.8, 4.8}}},
+        {{{0.8, 0.8}, {7.2, 7.2}, {7.2, 0.8}, {0.8, 7.2}}},
+        {{{0.5, 0.5}, {6.5, 6.5}, {0.5, 6.5}}},
+        {{{1, 1}, {2, 2}, {3, 3}, {4, 4}, {7, 1}, {4, 4}, {3, 7}}}};
+    for (size_t k = 0; k < std::size(loops); ++k) expect_even_odd(loops[k], 8, "loops " + std::to_string(k));
+}
+
+/// More crossings than are cut are survived in a time that does not grow without end.
+TEST(TrimCells, ScribblesAreSurvived) {
+    Loop loop;
+    for (uint32_t i = 0; i < 4000; ++i)
+        loop.push_back(V2d(8 * static_cast<double>(unit_float(hash(i, 1))),
+                           8 * static_cast<double>(unit_float(hash(i, 2)))));
+    const TrimmedCells cells = trim_cells({loop}, 8, 8, false);
+    EXPECT_GT(area(cells), 0);
+    EXPECT_LE(area(cells), 64 + 1e-3);
+}
+
 NuPatch plane_patch() {
     NuPatch patch;
     patch.u_knots = {0, 0, 2, 2}, patch.v_knots = {0, 0, 3, 3};
@@ -173,6 +279,46 @@ TEST(TrimmedPatch, TheBorderIsTheLoop) {
                     sum += 0.5 * static_cast<double>((p[3] - p[0]).cross(p[2] - p[1]).z);
                 }
         EXPECT_NEAR(std::abs(sum), outside ? 6 - kHalfTurn * 0.36 : kHalfTurn * 0.36, 2e-3);
+    }
+}
+
+/// However long the spans between knots are, and wherever they end: a triangle of straight lines. The plane
+/// is x = u / 10, y = v.
+TEST(TrimmedPatch, StraightLinesStayStraightAcrossSpans) {
+    for (const std::vector<float>& knots :
+         {std::vector<float>{0, 0, 10, 10}, {0, 0, 1, 10, 10}, {0, 0, .5f, 2, 9, 10, 10}}) {
+        NuPatch patch;
+        patch.u_order = patch.v_order = 2;
+        patch.u_knots = knots, patch.v_knots = {0, 0, 1, 1};
+        patch.u_end = 10, patch.v_end = 1;
+        TrimCurve line;
+        line.order = 2;
+        line.knots = {0, 0, 1, 2, 2}, line.end = 2;
+        line.points = {{.5f, .1f, 1}, {9.5f, .1f, 1}, {9.5f, .9f, 1}};
+        patch.trim_loops = {{line}};
+        std::vector<float> P;
+        const size_t columns = knots.size() - 2;
+        patch.nu = static_cast<int>(columns), patch.nv = 2;
+        for (int j = 0; j < 2; ++j)
+            for (size_t i = 0; i < columns; ++i)
+                P.insert(P.end(), {knots[i + 1] / 10, static_cast<float>(j), 0});
+        ParameterList list;
+        list.set(testing::parameter("P", StorageClass::Vertex, ValueType::Point, P));
+        testing::TestScene scene;
+        scene.keep_all().add(testing::shape_of(patch, std::move(list)));
+        const testing::DicedScene diced(scene);
+        double sum = 0;
+        for (const Grid& grid : diced.grids)
+            for (int v = 0; v < grid.shape.nv; ++v)
+                for (int u = 0; u < grid.shape.nu; ++u) {
+                    V3f p[4];
+                    for (int i = 0; i < 4; ++i) {
+                        p[i] = grid.vertex_at_key(u + (i & 1), v + (i >> 1), 0, 1);
+                        EXPECT_LE(p[i].y, .1f + .8f * (p[i].x - .05f) / .9f + 1e-4f);
+                    }
+                    sum += 0.5 * static_cast<double>((p[3] - p[0]).cross(p[2] - p[1]).z);
+                }
+        EXPECT_NEAR(std::abs(sum), .36, 1e-4) << knots.size();
     }
 }
 

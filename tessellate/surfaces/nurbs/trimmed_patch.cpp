@@ -95,6 +95,27 @@ class TrimmedPatch : public TopologySurface<TrimmedPatch> {
 
 }  // namespace
 
+/// A loop with a point more wherever it goes from one knot span to the next, along an axis: within a span,
+/// shares of the range and cells are straight lines of each other, across several they are not.
+std::vector<V2d> cut_between_spans(const std::vector<V2d>& loop, int axis, const KnotSpans& spans) {
+    std::vector<V2d> result;
+    for (size_t i = 0; i < loop.size(); ++i) {
+        const V2d &a = loop[i], &b = loop[(i + 1) % loop.size()];
+        result.push_back(a);
+        const bool rises = a[axis] < b[axis];
+        const auto span_at = [&](double share) {
+            return static_cast<int>(std::clamp(spans.spans_before(share), 0.0, spans.count() - 1.0));
+        };
+        const int first = span_at(std::min(a[axis], b[axis])) + 1, last = span_at(std::max(a[axis], b[axis]));
+        for (int n = first; n <= last; ++n) {
+            const double border = spans.begin_of_share(rises ? n : first + last - n);
+            const double share = (border - a[axis]) / (b[axis] - a[axis]);
+            if (share > 0 && share < 1) result.push_back(a + (b - a) * share);
+        }
+    }
+    return result;
+}
+
 /// Pieces are not smaller than the loops need, but at least so small that a bilinear piece of the parameter
 /// plane follows the loop's points.
 std::unique_ptr<Surface> make_trimmed_patch(const NuPatch& patch, std::unique_ptr<Surface> whole) {
@@ -105,9 +126,11 @@ std::unique_ptr<Surface> make_trimmed_patch(const NuPatch& patch, std::unique_pt
     plane.per_column = (kCells + u.count() - 1) / u.count();
     plane.per_row = (kCells + v.count() - 1) / v.count();
     std::vector<std::vector<V2d>> loops = flattened_loops(patch);
-    for (std::vector<V2d>& loop : loops)
+    for (std::vector<V2d>& loop : loops) {
+        loop = cut_between_spans(cut_between_spans(loop, 0, u), 1, v);
         // From shares of the range to cells: spans have equally many, however long they are.
         for (V2d& p : loop) p = {u.spans_before(p.x) * plane.per_column, v.spans_before(p.y) * plane.per_row};
+    }
     TrimmedCells cells = trim_cells(std::move(loops), plane.columns * plane.per_column,
                                     plane.rows * plane.per_row, patch.trim_outside);
     if (cells.cells.empty()) return nullptr;
