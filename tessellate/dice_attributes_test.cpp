@@ -177,5 +177,27 @@ TEST(DiceAttributes, SilhouettesAreSmooth) {
     for (const double r : farthest) EXPECT_NEAR(r, radius, 0.08);
 }
 
+/// What doubles its size is left as it is; a square that begins a hundredth as large has at least a fourth as
+/// many micropolygons as when it stands still in its full size.
+TEST(DiceAttributes, WhatGrowsIsDicedForHowLargeItBecomes) {
+    const auto scaled = [](float scale) {
+        M44f m;
+        for (int k = 0; k < 3; ++k) m[k][k] = scale;
+        return m * translation(0, 0, 4);
+    };
+    const auto count = [&](float open, float close) {
+        Square square;
+        square.scene.scene.primitives.front().camera_from_object = {scaled(open), scaled(close)};
+        return square.micropolygons();
+    };
+    Square still;
+    const uint64_t whole = still.micropolygons();
+    EXPECT_EQ(count(1, 2), count(1, 1));
+    EXPECT_EQ(count(1, 0.01f), count(1, 1)) << "what shrinks was large";
+    EXPECT_GE(4 * count(0.01f, 1), whole);
+    EXPECT_LE(count(0.01f, 1), whole);
+    EXPECT_LE(count(1e-4f, 1e6f), 100 * whole) << "no finer than the picture is large";
+}
+
 }  // namespace
 }  // namespace trapeze

@@ -2,6 +2,7 @@
 /// of threads.
 #include "tessellate/tessellate.h"
 #include "tessellate/measure/blur_factor.h"
+#include "tessellate/measure/growth_factor.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -231,7 +232,8 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
     const float blur = blur_factor(*out.placed, context.camera, metric);
     EdgeRate rate;
     rate.binary = attributes.dice.binary;
-    rate.pixels_per_segment = std::sqrt(std::max(attributes.shading_rate, kLeastShadingRate) * blur);
+    rate.pixels_per_segment = std::sqrt(std::max(attributes.shading_rate, kLeastShadingRate) * blur) /
+                              growth_factor(*out.placed, context.camera, metric);
     if (std::holds_alternative<Curves>(primitive.shape().topology))
         rate.pixels_per_segment = std::max(rate.pixels_per_segment, attributes.dice.min_length);
     rate.pixels_per_segment = std::max(rate.pixels_per_segment, options.least_side);
