@@ -313,6 +313,27 @@ TEST(ReadGeometry, SingularAndOverflowingSpacesAreReported) {
     }
 }
 
+TEST(ReadGeometry, ThingsMayGrowFromNothingAndVanish) {
+    const auto moving = [](const std::string& text) {
+        return read_text("Shutter 0 1 WorldBegin MotionBegin [0 1] " + text + " WorldEnd");
+    };
+    for (const std::string keys :
+         {"Scale 0 0 0 Scale 1 1 1", "Scale 1 1 1 Scale 0 0 0", "Scale 0 1 1 Scale 1 1 1"}) {
+        const ReadOutcome r = moving(keys + " MotionEnd " + kSphere);
+        EXPECT_THAT(r.messages, IsEmpty()) << keys;
+        ASSERT_EQ(r.count(), 1u) << keys;
+        EXPECT_NE(M44d(r.primitive().camera_from_object.front()).determinant(), 0) << keys;
+    }
+    for (const std::string keys : {"Sphere 0 0 0 360 Sphere 1 -1 1 360", "Sphere 1 -1 1 360 Sphere 0 0 0 360",
+                                   "Paraboloid 1 0 0 360 Paraboloid 1 0 1 360"}) {
+        const ReadOutcome r = moving(keys + " MotionEnd");
+        EXPECT_THAT(r.messages, IsEmpty()) << keys;
+        ASSERT_EQ(r.count(), 1u) << keys;
+        EXPECT_EQ(r.primitive().shape_keys.size(), 2u) << keys;
+    }
+    EXPECT_EQ(read_world("Sphere 0 0 0 360").count(), 0u);
+}
+
 /// RISpec, table 5.1: the normal of a face. "N" says more where both are given.
 TEST(ReadGeometry, PlanarNormalsAreNormals) {
     const ReadOutcome r = read_world("Polygon " + kQuad + "\"Np\" [0 .6 .8] Polygon " + kQuad +

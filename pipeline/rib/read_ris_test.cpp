@@ -119,6 +119,21 @@ TEST(ReadRis, LightsShineOnAllOfTheWorld) {
     }
 }
 
+TEST(ReadRis, IlluminateSwitchesLightsOff) {
+    const ReadOutcome r =
+        read_ris_world("Light \"PxrRectLight\" \"key\" Light \"PxrSphereLight\" \"rim\" Surface \"matte\"\n" +
+                       kBall + "AttributeBegin Illuminate \"key\" 0\n" + kBall + "Illuminate \"key\" 1\n" +
+                       kBall + "AttributeEnd\n" + kBall + "ObjectBegin 1 Illuminate \"rim\" 0\n" + kBall +
+                       "ObjectEnd ObjectInstance 1\n");
+    std::vector<std::string> lit;
+    for (size_t i = 0; i < r.count(); ++i) {
+        if (r.attributes(i).surface->name == "rislightsurface") continue;
+        std::string& names = lit.emplace_back();
+        for (const auto& light : r.attributes(i).lights) names += light->handle + ' ';
+    }
+    EXPECT_EQ(lit, (std::vector<std::string>{"key rim ", "rim ", "key rim ", "key rim ", "key "}));
+}
+
 TEST(ReadRis, ALightOfAnObjectShinesWhereItIsPlaced) {
     const ReadOutcome r = read_ris_world(
         "Bxdf \"PxrDiffuse\" \"b\"\n" + kBall +

@@ -77,7 +77,7 @@ std::shared_ptr<AttributeState> instance_attributes(const AttributeState& instan
     Attributes& a = result->attributes;
     if (a.asset.empty()) a.asset = of_object.attributes.asset;
     for (const auto& [order, value] : own.values()) set_attribute_value(value.category, value.value, *result);
-    for (const auto& [light, on] : own.switches()) switch_light(light, on, a.lights);
+    for (const auto& [light, on] : own.switches()) switch_light(light, on, a);
     take_own(of_object.attributes, own, a);
     take_own_shaders(of_object, camera_from_object, a);
     if (own.has(Own::DisplacementBound)) result->displacement_bound = of_object.displacement_bound;

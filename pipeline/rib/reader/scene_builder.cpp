@@ -46,6 +46,15 @@ std::vector<ShapePointer> only(ShapePointer shape) {
     return keys;
 }
 
+/// What unfolds from a flat shape, or from a point, is shaded as it begins to.
+void unfold_first(std::vector<M44f>& spaces) {
+    constexpr float kBeginning = 1.0f / 16384;
+    const auto is_singular = [](const M44f& space) { return M44d(space).determinant() == 0; };
+    if (!is_singular(spaces.front())) return;
+    const auto whole = std::ranges::find_if_not(spaces, is_singular);
+    if (whole != spaces.end()) spaces.front() += (*whole - spaces.front()) * kBeginning;
+}
+
 }  // namespace
 
 /// Frames that are not wanted are read all the same: what they define may be used, and mistakes in them be
@@ -212,7 +221,8 @@ void SceneBuilder::emit(const std::string& request, std::vector<ShapePointer> sh
     for (int k = 0; k < keys; ++k)
         primitive.camera_from_object.push_back(M44f(transform.at(key_time(open, close, k, keys))));
     // A singular transformation flattens the shape: it has no inside, and its normals no direction.
-    const auto& spaces = primitive.camera_from_object;
+    auto& spaces = primitive.camera_from_object;
+    unfold_first(spaces);
     const double determinant = M44d(spaces.front()).determinant();
     if (!std::all_of(spaces.begin(), spaces.end(), is_finite) || !(std::abs(determinant) > 0)) {
         const std::string what = request == report_.name() ? "" : request + ": ";

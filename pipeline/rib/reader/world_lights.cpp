@@ -195,7 +195,8 @@ void SceneBuilder::light_world() {
         if (!known) {
             auto made = std::make_shared<Attributes>(unlit);
             for (const auto& light : lights)
-                if (std::find(made->lights.begin(), made->lights.end(), light) == made->lights.end())
+                if (std::find(made->lights.begin(), made->lights.end(), light) == made->lights.end() &&
+                    !is_switched_off(*light, unlit))
                     made->lights.push_back(light);
             if (is_dark) made->lights.push_back(at_eye);
             if (is_coarse) made->shading_rate = 1;

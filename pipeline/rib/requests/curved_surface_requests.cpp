@@ -70,6 +70,21 @@ constexpr QuadricRow kQuadrics[] = {
     {Quadric::Kind::Torus, "Torus", 5},
 };
 
+/// What grows from nothing, or shrinks to it, in a motion block is as good as nothing there: it has normals.
+/// Elsewhere nothing is a mistake.
+void end_with_size(const GeometryContext& r, Quadric& q) {
+    constexpr float kNothing = 1e-6f;
+    const bool moves = r.state.in_motion();
+    if (q.kind == Quadric::Kind::Sphere && q.values[0] == 0) {
+        if (!moves) throw RequestError{"the radius is 0", {}};
+        q.values[0] = q.values[2] = kNothing, q.values[1] = -kNothing;
+    }
+    if (q.kind == Quadric::Kind::Paraboloid && q.values[2] == 0) {
+        if (!moves) throw RequestError{"zmax is 0", {}};
+        q.values[2] = kNothing;
+    }
+}
+
 /// RISpec 5.4: spheres reach from -radius to radius, whatever zmin and zmax say, and paraboloids from their
 /// apex on. Rounded numbers are no mistake.
 void end_with_surface(GeometryContext& r, Quadric& q) {
@@ -117,8 +132,7 @@ void quadric(GeometryContext& r, ArgumentCursor& c) {
         throw RequestError{
             "has " + std::to_string(values.size()) + " numbers, needs " + std::to_string(row.count), {}};
     std::copy(values.begin(), values.end(), q.values.begin());
-    if (q.kind == Quadric::Kind::Sphere && q.values[0] == 0) throw RequestError{"the radius is 0", {}};
-    if (q.kind == Quadric::Kind::Paraboloid && q.values[2] == 0) throw RequestError{"zmax is 0", {}};
+    end_with_size(r, q);
     end_with_surface(r, q);
     end_turning(r, q);
     Shape shape{q, {}};

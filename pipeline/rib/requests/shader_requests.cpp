@@ -161,7 +161,7 @@ void illuminate(LightContext& r, ArgumentCursor& c) {
     if (!light) throw RequestError{"no light " + in_quotes(handle), {}};
     std::erase_if(r.state.scope().emitters, [&](const auto& emitter) { return emitter->light == light; });
     AttributeState& state = r.state.change_attributes();
-    switch_light(light, on, state.attributes.lights);
+    switch_light(light, on, state.attributes);
     if (r.state.in_object()) state.own.switch_light(light, on);
 }
 

@@ -29,6 +29,11 @@ void keep(const std::string& category, const Parameter& value, UserValues& user)
         user.set(category, value);
 }
 
+/// The value among those of Attribute "light" that says whether a light is off.
+std::string switch_name(const LightInstance& light) {
+    return "off " + light.handle;
+}
+
 }  // namespace
 
 void set_attribute_value(const std::string& category, const Parameter& value, AttributeState& state) {
@@ -59,11 +64,19 @@ std::optional<float> shading_rate_of(const std::string& category, const Paramete
     return value.floats[0] * value.floats[0];
 }
 
-void switch_light(const std::shared_ptr<const LightInstance>& light, bool on,
-                  std::vector<std::shared_ptr<const LightInstance>>& lights) {
+void switch_light(const std::shared_ptr<const LightInstance>& light, bool on, Attributes& attributes) {
+    auto& lights = attributes.lights;
     const auto place = std::find(lights.begin(), lights.end(), light);
     if (on && place == lights.end()) lights.push_back(light);
     if (!on && place != lights.end()) lights.erase(place);
+    if (on == is_switched_off(*light, attributes))
+        attributes.user.set(
+            "light",
+            {switch_name(*light), {StorageClass::Uniform, ValueType::Float, 1}, {on ? 0.0f : 1.0f}, {}});
+}
+
+bool is_switched_off(const LightInstance& light, const Attributes& attributes) {
+    return attributes.user.float_or("light", switch_name(light), 0) != 0;
 }
 
 }  // namespace trapeze::rib

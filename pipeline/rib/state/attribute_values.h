@@ -16,8 +16,10 @@ void set_attribute_value(const std::string& category, const Parameter& value, At
 /// pixels.
 std::optional<float> shading_rate_of(const std::string& category, const Parameter& value);
 
-/// Illuminate. The order of the list is that in which lights were switched on, and of their sums.
-void switch_light(const std::shared_ptr<const LightInstance>& light, bool on,
-                  std::vector<std::shared_ptr<const LightInstance>>& lights);
+/// Illuminate. The order of the list is that in which lights were switched on, and of their sums. Lights that
+/// shine on the whole world come to it at the world's end: what is off is remembered.
+void switch_light(const std::shared_ptr<const LightInstance>& light, bool on, Attributes& attributes);
+/// Whether Illuminate has switched a light off.
+bool is_switched_off(const LightInstance& light, const Attributes& attributes);
 
 }  // namespace trapeze::rib
