@@ -133,8 +133,11 @@ Task<> GridRun::run(const AovLayout& aovs, const HitOutputs* asked) {
     if (material_.displacement && !grids_.front()->is_end) displaced = co_await displace_seen();
     if (grids_.front()->own_colors)
         set_own_colors();
-    else
+    else {
+        if (const LayeredShader* shader = volume(); shader && material_.surface_asks_volume)
+            co_await announce_volume(*shader);
         surface = co_await run_surface();
+    }
     if (const LayeredShader* shader = volume())
         atmosphere = co_await color(*shader, true, messages_.atmosphere);
     if (asked) answer_hits(*asked, surface, displaced, atmosphere, grids_);
@@ -188,6 +191,7 @@ Task<> GridRun::split_light(const AovLayout& aovs) {
 }
 
 Task<GridRun::Layers> GridRun::run_surface() {
+    if (rays_) rays_->begin_anew();
     // What is seen through a medium, and what others ask of it, may be any of its variables.
     const bool part = grids_.front()->for_opacity && material_.surface_opacity && !volume();
     const LayeredShader& shader = part ? *material_.surface_opacity : *material_.surface;
@@ -200,9 +204,17 @@ Task<GridRun::Layers> GridRun::run_surface() {
     co_return co_await color(shader, false, messages_.surface);
 }
 
+/// What runs after the surface has its parameters' values before.
+Task<> GridRun::announce_volume(const LayeredShader& shader) {
+    Layers layers;
+    for (size_t layer = 0; layer < shader.layers.size(); ++layer)
+        messages_.atmosphere =
+            co_await run_layer(shader, layer, read_, batch_, false, layers, Part::Parameters);
+}
+
 Task<vm::Registers*> GridRun::run_layer(const LayeredShader& shader, size_t layer,
                                         std::span<const ShadingGrid* const> grids, const vm::Batch& batch,
-                                        bool shaded, Layers& layers) {
+                                        bool shaded, Layers& layers, Part part) {
     const BoundShader& bound = *shader.layers[layer];
     // Two layers may be the same shader: each has registers of its own, by its number.
     vm::Registers& registers = scratch_.machine.registers(bound.executable(), layer);
@@ -244,9 +256,11 @@ Task<vm::Registers*> GridRun::run_layer(const LayeredShader& shader, size_t laye
     const auto& lights = group_lamps_                 ? *group_lamps_
                          : grids.front()->for_opacity ? material_.other_lights
                                                       : material_.lights;
-    scratch_.lights.start(scratch_.machine, lights, surroundings, batch.lanes,
-                          variable_planes(registers, "N"), context_.seed, context_.scene->held_from_camera);
+    scratch_.lights.start(scratch_.machine, lights, group_lamps_ ? material_.lights : lights, surroundings,
+                          batch.lanes, variable_planes(registers, "N"), context_.seed,
+                          context_.scene->held_from_camera);
     co_await bound.set_run_defaults(scratch_.machine, registers, surroundings, grids);
+    if (part == Part::Parameters) co_return &registers;
     shader.connect(layer, layers);
     co_await scratch_.machine.run(registers, surroundings);
     co_return &registers;

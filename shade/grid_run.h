@@ -52,9 +52,12 @@ class GridRun {
 
     /// Runs one layer on `grids`, whose lanes `batch` describes; `shaded`: Ci and Oi begin as the grids have
     /// them. Adds the layer's registers to `layers` and returns them.
+    /// How much of a layer is run.
+    enum class Part : uint8_t { All, Parameters };
+    Task<> announce_volume(const LayeredShader& shader);
     Task<vm::Registers*> run_layer(const LayeredShader& shader, size_t layer,
                                    std::span<const ShadingGrid* const> grids, const vm::Batch& batch,
-                                   bool shaded, Layers& layers);
+                                   bool shaded, Layers& layers, Part part = Part::All);
     // These return the registers of all layers of their shader.
     Task<Layers> displace();
     Task<Layers> run_surface();

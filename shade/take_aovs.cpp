@@ -42,6 +42,23 @@ void take_channel(const Aov& aov, int channel, const vm::Operand* from, size_t f
         to.assign(count, 0.0f);
 }
 
+/// Whether a variable is the normal as the primitive or the shader has it. Nobody has multiplied it by Oi, as
+/// values that are summed through layers are to be.
+bool is_plain_normal(const Aov& aov, LayerRegisters surface, LayerRegisters displacement) {
+    if (aov.name != "N" || aov.channels != 3 || !aov.is_summed()) return false;
+    for (const LayerRegisters layers : {surface, displacement})
+        for (const vm::Registers* layer : layers)
+            if (has_output(layer->program(), aov)) return false;
+    return true;
+}
+
+void multiply_by_opacity(const Aov& aov, ShadingGrid& grid) {
+    for (size_t i = 0; i < grid.vertex_count(); ++i) {
+        const float opacity = (grid.Oi.c[0][i] + grid.Oi.c[1][i] + grid.Oi.c[2][i]) / 3;
+        for (int c = 0; c < 3; ++c) grid.aovs[static_cast<size_t>(aov.offset + c)][i] *= opacity;
+    }
+}
+
 /// Whether any grid will have a variable.
 bool exists(const Aov& aov, const Materials& materials) {
     if (const auto group = light_group_asked(aov))
@@ -60,6 +77,7 @@ void take_aovs(const AovLayout& layout, LayerRegisters surface, LayerRegisters d
     for (ShadingGrid* grid : grids) grid->aovs.resize(static_cast<size_t>(layout.channel_count));
     for (const Aov& aov : layout.aovs) {
         const vm::Operand* from = find_shader_variable(aov, surface, displacement);
+        const bool weighed = is_plain_normal(aov, surface, displacement);
         size_t first = 0;
         for (ShadingGrid* grid : grids) {
             if (!from && is_made_variable(aov)) {
@@ -68,6 +86,7 @@ void take_aovs(const AovLayout& layout, LayerRegisters surface, LayerRegisters d
             }
             for (int channel = 0; channel < aov.channels; ++channel)
                 take_channel(aov, channel, from, first, *grid);
+            if (weighed) multiply_by_opacity(aov, *grid);
             first += grid->vertex_count();
         }
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "core/files/temporary_folder_harness.h"
 #include "tests/scene_harness.h"
 
 namespace trapeze::testing {
@@ -24,6 +25,25 @@ TEST(Atmosphere, FogGrowsWithDistanceInAnyProjection) {
     for (const char* projection : {"Projection \"orthographic\"", "Projection \"perspective\" \"fov\" [1]"})
         for (const float depth : {3.0f, 6.0f, 30.0f})
             EXPECT_NEAR(red_of_wall(depth, projection), 1 - std::exp(-depth / 10), 2e-3f) << projection;
+}
+
+/// The surface is shaded before the volume, and knows its parameters all the same.
+TEST(Atmosphere, TellsTheSurfaceItsParameters) {
+    const TemporaryFolder folder;
+    std::ofstream(folder.file("haze.sl"))
+        << "volume haze(float density = .6, two = 2 * density;) { Oi = Oi; }";
+    std::ofstream(folder.file("asks.sl"))
+        << "surface asks() { float d = 0, e = 0, two = 0; float found = atmosphere(\"density\", d) + "
+           "incident(\"density\", e) + atmosphere(\"two\", two) + 10 * atmosphere(\"none\", e); "
+           "Ci = color(d, two, found / 3); Oi = 1; }";
+    std::ofstream(folder.file("a.rib"))
+        << "Option \"searchpath\" \"string shader\" [\"" << folder.file("")
+        << "\"] Display \"x\" \"exr\" \"rgba\" Format 3 3 1 WorldBegin Atmosphere \"haze\" \"density\" [.25] "
+           "Surface \"asks\" Polygon \"P\" [-9 -9 1 9 -9 1 9 9 1 -9 9 1] WorldEnd\n";
+    const Image image = render_scene(folder.file("a.rib"), {}, 1).at(0).image;
+    EXPECT_NEAR(image.rgba[4 * 4], .25f, 1e-6f);
+    EXPECT_NEAR(image.rgba[4 * 4 + 1], .5f, 1e-6f);
+    EXPECT_NEAR(image.rgba[4 * 4 + 2], 1, 1e-6f);
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ std::vector<float> AreaSamples::take(const Turn& turn, const Lamp& lamp, const v
         const size_t lane = lit.lane;
         float time = 0;
         if (!times.empty()) {
-            time = time_of_sample(turn.sample, hash(lit.seed, turn.lamp, kLightTimes), lit.grid);
+            time = time_of_sample(turn.sample, hash(lit.seed, turn.number, kLightTimes), lit.grid);
             times[lane] = time = lamp.moves() ? lamp.time_near(time) : time;
         }
         const LightSampler* const sampler = lamp.sampler_at(time);
@@ -84,7 +84,7 @@ std::vector<float> AreaSamples::take(const Turn& turn, const Lamp& lamp, const v
             turned_[lane] = time;
             normal = lit.surface->forward(normal, time);
         }
-        const RaySequence sequence(hash(lit.seed, turn.lamp, kAreaLights), turn.samples);
+        const RaySequence sequence(hash(lit.seed, turn.number, kAreaLights), turn.samples);
         const LightSample made = sampler->sample(point, normal, sequence[turn.sample]);
         put(kSampleP, lane, made.P), put(kSampleN, lane, made.N), put(kRadiance, lane, made.radiance);
         samples_[kSolidAngle * lanes_ + lane] = std::isfinite(made.solid_angle) ? made.solid_angle : 0;

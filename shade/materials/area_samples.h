@@ -26,7 +26,8 @@ class AreaSamples {
 
     /// One of a number of samples of the lamp with a number.
     struct Turn {
-        uint32_t lamp = 0;
+        uint32_t lamp = 0;    ///< of those that are run
+        uint32_t number = 0;  ///< of all that light the surface
         int sample = 0, samples = 1;
     };
     /// Chooses a place of the light's shape for each vertex. Random numbers follow from the vertex and the

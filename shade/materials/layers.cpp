@@ -73,15 +73,30 @@ bool asks_object_space(const rsl::Program& program) {
 
 }  // namespace
 
-bool asks_variables(const rsl::Program& program) {
-    const auto asks = [](const rsl::Code& code) {
+namespace {
+
+/// Whether a program, or a default value of its parameters, has one of some operations.
+bool has_any(const rsl::Program& program, std::initializer_list<rsl::Op> wanted) {
+    const auto asks = [&](const rsl::Code& code) {
         return std::ranges::any_of(
-            code, [](const rsl::Instruction& i) { return i.op == rsl::Op::VariableMessage; });
+            code, [&](const rsl::Instruction& i) { return std::ranges::find(wanted, i.op) != wanted.end(); });
     };
     return asks(program.code) ||
            std::ranges::any_of(program.parameters, [&](const rsl::ProgramParameter& parameter) {
                return asks(parameter.initial);
            });
+}
+
+}  // namespace
+
+bool asks_variables(const rsl::Program& program) {
+    return has_any(program, {rsl::Op::VariableMessage});
+}
+
+bool LayeredShader::asks_volume() const {
+    return std::ranges::any_of(layers, [](const BoundShader* layer) {
+        return has_any(layer->program(), {rsl::Op::AtmosphereMessage, rsl::Op::IncidentMessage});
+    });
 }
 
 bool LayeredShader::asks_primitive() const {

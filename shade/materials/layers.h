@@ -24,6 +24,8 @@ struct LayeredShader {
     /// Whether a layer asks for variables of the primitive by name, or may ask for the space named "object":
     /// grids of different primitives do not share these.
     bool asks_primitive() const;
+    /// Whether a layer asks for values of the volume in front of the surface: by atmosphere() or incident().
+    bool asks_volume() const;
 
     /// Copies what earlier layers have into the variables of layer `to`. registers[i] is layer i's, all of as
     /// many lanes.

@@ -49,8 +49,8 @@ void give_lanes(const vm::SentValue& sent, size_t lanes, const uint32_t* mask, c
 }  // namespace
 
 void LightRig::start(vm::Machine& machine, const std::vector<const Lamp*>& lamps,
-                     const vm::Context& surroundings, size_t lanes, const Plane3& N, uint32_t seed,
-                     std::span<const M44f> held) {
+                     const std::vector<const Lamp*>& all, const vm::Context& surroundings, size_t lanes,
+                     const Plane3& N, uint32_t seed, std::span<const M44f> held) {
     machine_ = &machine;
     lamps_ = &lamps;
     surroundings_ = &surroundings;
@@ -58,12 +58,13 @@ void LightRig::start(vm::Machine& machine, const std::vector<const Lamp*>& lamps
     N_ = N;
     turns_.clear();
     int wanted = 0;
-    for (const Lamp* lamp : lamps) wanted += lamp->turns();
+    for (const Lamp* lamp : all) wanted += lamp->turns();
     for (uint32_t i = 0; i < lamps.size(); ++i) {
         const int asked = lamps[i]->turns();
         const int samples =
             wanted > kMostTurns && asked > 1 ? std::max(1, asked * kMostTurns / wanted) : asked;
-        for (int s = 0; s < samples; ++s) turns_.push_back({i, s, samples});
+        const auto number = static_cast<uint32_t>(std::ranges::find(all, lamps[i]) - all.begin());
+        for (int s = 0; s < samples; ++s) turns_.push_back({i, number, s, samples});
     }
     if (std::ranges::any_of(lamps, [](const Lamp* lamp) { return lamp->area != nullptr; }))
         samples_.start(surroundings, lanes, N, seed, held);

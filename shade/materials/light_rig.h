@@ -18,11 +18,13 @@ namespace trapeze {
 /// is kept of it stays. One per thread.
 class LightRig : public vm::Lights {
   public:
-    /// Begins with the lights of a grid. `surroundings` is the surface's context; `N` are its normals (3
-    /// planes of `lanes` lanes, or none); `seed` that of the render; `held` is Scene::held_from_camera. All
-    /// must outlive the use.
-    void start(vm::Machine& machine, const std::vector<const Lamp*>& lamps, const vm::Context& surroundings,
-               size_t lanes, const Plane3& N, uint32_t seed = 0, std::span<const M44f> held = {});
+    /// Begins with the lights of a grid, which are all that light it, or some of these: they then shine as
+    /// they do together. `surroundings` is the surface's context; `N` are its normals (3 planes of `lanes`
+    /// lanes, or none); `seed` that of the render; `held` is Scene::held_from_camera. All must outlive the
+    /// use.
+    void start(vm::Machine& machine, const std::vector<const Lamp*>& lamps,
+               const std::vector<const Lamp*>& all, const vm::Context& surroundings, size_t lanes,
+               const Plane3& N, uint32_t seed = 0, std::span<const M44f> held = {});
 
     size_t count() const override { return turns_.size(); }
     Task<const Arriving*> arriving(size_t light, const vm::LightRequest& request) override;

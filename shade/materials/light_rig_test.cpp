@@ -43,7 +43,7 @@ class OneLamp {
         const std::vector<const Lamp*> lamps{&lamp_};
         const vm::Context surroundings;
         LightRig rig;
-        rig.start(machine_, lamps, surroundings, kLanes, {});
+        rig.start(machine_, lamps, lamps, surroundings, kLanes, {});
         const vm::LightRequest request{.P = operand};
         const vm::Lights::Arriving& light = *rig.arriving(0, request).get();
         const auto first = [](const float* p) { return V3f(p[0], p[kLanes], p[2 * kLanes]); };

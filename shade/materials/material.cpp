@@ -91,6 +91,7 @@ void Materials::add(const Attributes& attributes, const Names& varying) {
     material.surface_moves = sets_P && attributes.displacement_bound > 0;
     if (!material.surface_moves) material.surface_opacity = opacity_of(*material.surface);
     material.surface_only_sets_P = sets_P && !material.surface_moves && !material.displacement;
+    material.surface_asks_volume = material.surface->asks_volume();
     for (const LayeredShader* shader : {material.surface, material.displacement, material.atmosphere})
         material.asks_primitive |= shader && shader->asks_primitive();
     for (const auto& instance : attributes.lights)

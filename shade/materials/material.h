@@ -34,6 +34,8 @@ struct Material {
     const LayeredShader *interior_opacity = nullptr, *exterior_opacity = nullptr;
     /// Whether a shader asks what grids of different primitives do not share: they can then not share a run.
     bool asks_primitive = false;
+    /// Whether the surface shader asks for values of the volume that it is seen through.
+    bool surface_asks_volume = false;
     /// Whether the surface shader sets P and there is a displacement bound: the shader then displaces the
     /// surface, too.
     bool surface_moves = false;

@@ -19,6 +19,8 @@ class RayCalls : public vm::Rays {
   public:
     /// `attributes`: of the surface that is shaded.
     RayCalls(const RayService& service, const Attributes& attributes) : asker_(service, attributes) {}
+    /// A shader that is run again for the same grids takes the same random numbers.
+    void begin_anew() { calls_.clear(); }
 
     Task<> trace(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands) override;
     std::unique_ptr<vm::GatherTurns> gather(vm::Run& run, const vm::Step& step,
