@@ -42,6 +42,7 @@ const std::map<std::string, Names> kWings = {
     {"composite/filters", {"composite"}},
     {"composite/merge", {"composite", "composite/displays"}},
     {"core", {"core/memory"}},
+    {"core/colors", {"core/scene"}},
     {"core/files", {"core"}},
     {"core/scene", {"core"}},
     {"pipeline/checkpoint", {"pipeline/frame"}},

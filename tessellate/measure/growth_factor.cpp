@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "core/portable_math.h"
+
 namespace trapeze {
 namespace {
 
@@ -67,7 +69,8 @@ float growth_factor(const PlacedSurface& surface, const Camera& camera, const Sc
     }
     const Lengths lengths = lengths_of(surface, surface.is_rigid() ? 1 : keys, metric);
     if (!surface.is_rigid()) growth = growth_of(lengths.sums);
-    const float diagonal = std::hypot(static_cast<float>(camera.width), static_cast<float>(camera.height));
+    const float diagonal =
+        portable::hypot(static_cast<float>(camera.width), static_cast<float>(camera.height));
     const float most = lengths.longest > 0 ? kMostDiagonals * diagonal / lengths.longest : 1;
     return std::max(1.0f, std::min(growth, most) / kLetPass);  // 1 for NaN
 }

@@ -7,6 +7,7 @@
 #include "pipeline/rib/reader/scene_builder.h"
 #include "pipeline/rib/ris/ris_light_surfaces.h"
 #include "pipeline/rib/ris/ris_lights.h"
+#include "pipeline/rib/state/attribute_values.h"
 #include "pipeline/rib/state/scene_size.h"
 
 namespace trapeze::rib {

@@ -171,7 +171,8 @@ TEST(Analysis, TextsThatWouldVaryAreWarnedOf) {
               "warning 1:78: a string is made of what varies" + decides);
     EXPECT_EQ(said("string f(float x) { return format(\"%f\", x); } surface t() { printf(f(s)); }"),
               "warning 1:28: a string is made of what varies" + decides);
-    // What is the same for all, or for each light.
+    // What is the same for all, or for each light; and a texture's channel.
+    EXPECT_EQ(in_surface("Ci = texture(\"a.tif\"[2 * s], s, t);"), "");
     EXPECT_EQ(in_surface(
                   "uniform float x = 1; string a[2] = {\"x\", \"y\"}; if (x > .5) a[x] = format(\"%f\", x);"),
               "");

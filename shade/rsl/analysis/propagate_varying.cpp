@@ -323,8 +323,10 @@ class Propagation {
 
     /// Whether a text may be another at other vertices.
     void check_text(const Expression& e) {
-        const bool chosen = e.kind == Expression::Kind::Element || e.kind == Expression::Kind::Conditional;
-        const size_t choice = e.kind == Expression::Kind::Element ? 1 : 0;
+        // Behind the name of a texture an index is that of its channel, which may vary.
+        const bool element = e.kind == Expression::Kind::Element && e.children[0]->type.is_array();
+        const bool chosen = element || e.kind == Expression::Kind::Conditional;
+        const size_t choice = element ? 1 : 0;
         if (chosen && varying(*e.children[choice]))
             return report_text(e.at, "a string is chosen by what varies");
         if (e.kind != Expression::Kind::Call || !e.builtin || e.builtin->op != Op::Format) return;

@@ -5,6 +5,8 @@
 #include <map>
 #include <optional>
 
+#include "core/portable_math.h"
+
 namespace trapeze {
 namespace {
 
@@ -200,7 +202,7 @@ size_t Arrangement::sharpest_left(int before, int at, const std::vector<size_t>&
     const V2d back = point(before) - point(at);
     const auto turn = [&](size_t c) {  // clockwise from the way back
         const V2d way = point(chains_[c].vertices[1]) - point(at);
-        const double angle = -std::atan2(back.cross(way), back.dot(way));
+        const double angle = -portable::atan2(back.cross(way), back.dot(way));
         return angle > 0 ? angle : angle + kTurn;
     };
     return *std::ranges::min_element(leaving, {}, turn);
