@@ -131,9 +131,9 @@ Task<> GridRun::run_displacement() {
 Task<> GridRun::run(const AovLayout& aovs, const HitOutputs* asked) {
     Layers displaced, surface, atmosphere;
     if (material_.displacement && !grids_.front()->is_end) displaced = co_await displace_seen();
-    if (grids_.front()->own_colors)
+    if (grids_.front()->own_colors) {
         set_own_colors();
-    else {
+    } else {
         if (const LayeredShader* shader = volume(); shader && material_.surface_asks_volume)
             co_await announce_volume(*shader);
         surface = co_await run_surface();

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
+#include "tessellate/measure/some_faces.h"
+
 namespace trapeze {
 namespace {
 
-constexpr int kMostFacesLookedAt = 64;
 /// Pixels of blur that double the shading rate.
 constexpr float kPixelsOfBlur = 16;
 
@@ -31,14 +32,13 @@ float blur_factor(const PlacedSurface& surface, const Camera& camera, const Scre
     EvaluationScratch scratch;
     std::vector<V3f> P(kPlaces.size() * keys), point(keys);
     float least = kInfinity;
-    const int step = std::max(1, faces / kMostFacesLookedAt);
-    for (int face = 0; face < faces; face += step) {
+    for_some_faces(faces, [&](int face) {
         surface.positions(face, kPlaces, keys, scratch, P);
         for (size_t i = 0; i < kPlaces.size(); ++i) {
             for (int key = 0; key < keys; ++key) point[key] = P[key * kPlaces.size() + i];
             least = std::min(least, blur_of(point, attributes, camera, metric));
         }
-    }
+    });
     return 1 + (least > 0 ? least / kPixelsOfBlur : 0);  // 1 for NaN
 }
 

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "core/portable_math.h"
+#include "tessellate/measure/some_faces.h"
 
 namespace trapeze {
 namespace {
 
-constexpr int kMostFacesMeasured = 64;
 /// Growth that is let pass: micropolygons become twice as long.
 constexpr float kLetPass = 2;
 /// Diagonals of the picture that what has grown is diced for, at most.
@@ -39,15 +39,14 @@ Lengths lengths_of(const PlacedSurface& surface, int keys, const ScreenMetric& m
     Lengths lengths{std::vector<float>(static_cast<size_t>(keys))};
     EvaluationScratch scratch;
     std::vector<V3f> P(kPlaces.size() * static_cast<size_t>(keys));
-    const int faces = surface.surface().face_count(), step = std::max(1, faces / kMostFacesMeasured);
-    for (int face = 0; face < faces; face += step) {
+    for_some_faces(surface.surface().face_count(), [&](int face) {
         surface.positions(face, kPlaces, keys, scratch, P);
         for (const auto& [from, to] : kLines) {
             lengths.longest = std::max(lengths.longest, metric.of(P[from], P[to]).square_on);
             for (size_t key = 0; key < lengths.sums.size(); ++key)
                 lengths.sums[key] += (P[key * kPlaces.size() + to] - P[key * kPlaces.size() + from]).length();
         }
-    }
+    });
     return lengths;
 }
 

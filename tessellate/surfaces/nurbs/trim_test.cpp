@@ -257,28 +257,37 @@ std::shared_ptr<const Shape> trimmed_plane(bool outside) {
     return testing::shape_of(patch, std::move(list));
 }
 
+/// The area of all micropolygons of a plane, whose corners are handed on.
+template <class Visit>
+double area_of(const testing::DicedScene& diced, const Visit& visit) {
+    double sum = 0;
+    for (const Grid& grid : diced.grids)
+        for (int v = 0; v < grid.shape.nv; ++v)
+            for (int u = 0; u < grid.shape.nu; ++u) {
+                V3f p[4];
+                for (int i = 0; i < 4; ++i) {
+                    p[i] = grid.vertex_at_key(u + (i & 1), v + (i >> 1), 0, 1);
+                    visit(p[i]);
+                }
+                sum += 0.5 * static_cast<double>((p[3] - p[0]).cross(p[2] - p[1]).z);
+            }
+    return std::abs(sum);
+}
+
 /// The plane's u and v are x + 1 and y + 1.5: the border is a circle about the origin.
 TEST(TrimmedPatch, TheBorderIsTheLoop) {
     for (const bool outside : {false, true}) {
         testing::TestScene scene;
         scene.keep_all().add(trimmed_plane(outside));
         const testing::DicedScene diced(scene);
-        double sum = 0;
-        for (const Grid& grid : diced.grids)
-            for (int v = 0; v < grid.shape.nv; ++v)
-                for (int u = 0; u < grid.shape.nu; ++u) {
-                    V3f p[4];
-                    for (int i = 0; i < 4; ++i) {
-                        p[i] = grid.vertex_at_key(u + (i & 1), v + (i >> 1), 0, 1);
-                        const float r = std::hypot(p[i].x, p[i].y);
-                        if (outside)
-                            EXPECT_GE(r, 0.6f - 2e-4f);
-                        else
-                            EXPECT_LE(r, 0.6f + 1e-5f);
-                    }
-                    sum += 0.5 * static_cast<double>((p[3] - p[0]).cross(p[2] - p[1]).z);
-                }
-        EXPECT_NEAR(std::abs(sum), outside ? 6 - kHalfTurn * 0.36 : kHalfTurn * 0.36, 2e-3);
+        const double area = area_of(diced, [&](const V3f& corner) {
+            const float r = std::hypot(corner.x, corner.y);
+            if (outside)
+                EXPECT_GE(r, 0.6f - 2e-4f);
+            else
+                EXPECT_LE(r, 0.6f + 1e-5f);
+        });
+        EXPECT_NEAR(area, outside ? 6 - kHalfTurn * 0.36 : kHalfTurn * 0.36, 2e-3);
     }
 }
 
@@ -307,18 +316,10 @@ TEST(TrimmedPatch, StraightLinesStayStraightAcrossSpans) {
         testing::TestScene scene;
         scene.keep_all().add(testing::shape_of(patch, std::move(list)));
         const testing::DicedScene diced(scene);
-        double sum = 0;
-        for (const Grid& grid : diced.grids)
-            for (int v = 0; v < grid.shape.nv; ++v)
-                for (int u = 0; u < grid.shape.nu; ++u) {
-                    V3f p[4];
-                    for (int i = 0; i < 4; ++i) {
-                        p[i] = grid.vertex_at_key(u + (i & 1), v + (i >> 1), 0, 1);
-                        EXPECT_LE(p[i].y, .1f + .8f * (p[i].x - .05f) / .9f + 1e-4f);
-                    }
-                    sum += 0.5 * static_cast<double>((p[3] - p[0]).cross(p[2] - p[1]).z);
-                }
-        EXPECT_NEAR(std::abs(sum), .36, 1e-4) << knots.size();
+        const double area = area_of(diced, [](const V3f& corner) {
+            EXPECT_LE(corner.y, .1f + .8f * (corner.x - .05f) / .9f + 1e-4f);
+        });
+        EXPECT_NEAR(area, .36, 1e-4) << knots.size();
     }
 }
 
