@@ -109,12 +109,22 @@ struct Grid {
         return vertex(i, j, keys <= 1 ? 0.0f : static_cast<float>(key) / static_cast<float>(keys - 1));
     }
 
-    /// The four corners of micropolygon (u, v) at a time, with axes turned as asked (see TurnedRay).
+    /// The four corners of micropolygon (u, v) at a time, with axes turned as asked (see TurnedRay): what
+    /// vertex() says of each, found at once.
     Quad quad(int u, int v, float time01, int x_plane = 0, int y_plane = 1, int z_plane = 2) const {
+        const MotionSegment s = segment_at(time01, key_count);
+        const float* x = plane(s.index, x_plane);
+        const float* y = plane(s.index, y_plane);
+        const float* z = plane(s.index, z_plane);
+        const size_t to_change = 3 * shape.plane_size();
         Quad q;
         for (int corner = 0; corner < 4; ++corner) {
-            const V3f p = vertex(u + (corner & 1), v + (corner >> 1), time01);
-            q.x[corner] = p[x_plane], q.y[corner] = p[y_plane], q.z[corner] = p[z_plane];
+            const size_t at = static_cast<size_t>(shape.tiled_index(u + (corner & 1), v + (corner >> 1)));
+            q.x[corner] = x[at], q.y[corner] = y[at], q.z[corner] = z[at];
+            if (!moves()) continue;
+            q.x[corner] = position_at(q.x[corner], x[at + to_change], s.local);
+            q.y[corner] = position_at(q.y[corner], y[at + to_change], s.local);
+            q.z[corner] = position_at(q.z[corner], z[at + to_change], s.local);
         }
         return q;
     }

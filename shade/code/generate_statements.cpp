@@ -214,7 +214,8 @@ void Generator::loop_statement(const Statement& s) {
 }
 
 /// illuminance in surfaces and volumes; illuminate and solar in lights, which tell by them that the light has
-/// a direction. All set L.
+/// a direction. All set L. After a loop over lights within another one's turn, L and Cl are that turn's
+/// again.
 void Generator::light_block(const Statement& s) {
     Ids inputs, outputs = {global("L", Base::Vector)};
     Op op = Op::Solar, end = Op::EndSolar;
@@ -230,6 +231,12 @@ void Generator::light_block(const Statement& s) {
             op = Op::Illuminate, end = Op::EndIlluminate;
         }
     }
+    const bool within_turn = op == Op::Illuminance && light_loops_ > 0;
+    Ids of_turn;
+    for (size_t i = 0; within_turn && i < outputs.size(); ++i) {
+        of_turn.push_back(add_register(Register::Kind::Local, program_->reg(outputs[i]).type));
+        moved(outputs[i], base_of(outputs[i]), of_turn[i]);
+    }
     const size_t plain = s.expressions.size() - s.named;
     for (size_t i = 0; i < plain; ++i) inputs.push_back(value(*s.expressions[i]));
     const size_t plain_inputs = inputs.size();
@@ -243,9 +250,12 @@ void Generator::light_block(const Statement& s) {
     if (s.at.line) at_ = s.at;
     open(op, outputs, inputs);
     if (op == Op::Illuminance) (*code_)[opening].immediate = static_cast<int32_t>(plain_inputs);
+    light_loops_ += op == Op::Illuminance ? 1 : 0;
     statement(*s.children[0]);
+    light_loops_ -= op == Op::Illuminance ? 1 : 0;
     close(end);
     if (op == Op::Illuminance) keep_inputs(opening);
+    for (size_t i = 0; i < of_turn.size(); ++i) moved(of_turn[i], base_of(outputs[i]), outputs[i]);
 }
 
 /// A name and a value behind the plain inputs of Illuminance. Arrays are sent as they are when the loop

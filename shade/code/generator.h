@@ -129,6 +129,7 @@ class Generator {
     std::map<float, RegisterId> numbers_;
     std::map<std::string, RegisterId> texts_;
     int call_depth_ = 0;
+    int light_loops_ = 0;       ///< illuminance blocks around what is being generated
     int32_t random_calls_ = 0;  ///< numbers the calls of random(), so that no two give the same
     /// Of the function (or shader) whose body is being generated.
     struct Body {

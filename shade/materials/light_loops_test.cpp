@@ -140,6 +140,20 @@ TEST(Illuminance, IsALoopThatJumpsLeave) {
         11);
 }
 
+TEST(Illuminance, WithinAnotherLeavesItsLightAndDirection) {
+    const auto of_three = [](const std::string& body, float value) {
+        LitProbe probe;
+        probe.light(1, "", 0), probe.light(10, "", 0.5f), probe.light(100, "", 1.4f);
+        probe.expect(body, value);
+    };
+    of_three("illuminance(P) { float n = 0; illuminance(P) n += 1; Ci += n * Cl; }", 333);
+    of_three("illuminance(P) { illuminance(P) { illuminance(P, N, 0.1) ; } Ci += Cl; }", 111);
+    of_three("illuminance(P) { illuminance(P) ; if (normalize(L) . N > 0.99) Ci += 7; }", 7);
+    // Only some lanes look at all lights again, and leave by a jump.
+    of_three("illuminance(P) { if (s >= 0) illuminance(P) if (comp(Cl, 0) == 10) break; Ci += Cl; }", 111);
+    of_three("illuminance(P) { illuminance(P) if (comp(Cl, 0) == 10) continue 2; Ci += Cl; }", 0);
+}
+
 TEST(Illuminance, LanesJumpApart) {
     LitProbe probe;
     for (const float level : {1.0f, 10.0f, 100.0f, 1000.0f}) probe.light(level, "");
