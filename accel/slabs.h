@@ -1,4 +1,4 @@
-/// Rays in the frames of oriented boxes, and slab tests there: the interval of depths in which a ray is
+/// Rays in the axes of oriented boxes, and slab tests there: the interval of depths in which a ray is
 /// between each pair of planes, cut with each other. Loops run over four lanes, the three axes and one that
 /// is never decisive, so that compilers make a vector operation of each.
 #pragma once
@@ -11,19 +11,19 @@
 
 namespace trapeze {
 
-/// A Frame by columns, as four lanes want it: coordinate k of a point is sum over i of column[i][k] *
+/// Axes by columns, as four lanes want it: coordinate k of a point is sum over i of column[i][k] *
 /// point[i]. Lane 3 is 0.
-struct alignas(16) FrameColumns {
+struct alignas(16) AxesColumns {
     float column[3][4] = {};
 
-    FrameColumns() = default;
-    explicit FrameColumns(const Frame& frame) {
+    AxesColumns() = default;
+    explicit AxesColumns(const Axes& axes) {
         for (int k = 0; k < 3; ++k)
-            for (int i = 0; i < 3; ++i) column[i][k] = frame.axis[k][i];
+            for (int i = 0; i < 3; ++i) column[i][k] = axes.axis[k][i];
     }
 };
 
-/// A box in some frame at one motion key. Lane 3 is [-1, 1] about an origin of 0, which every ray passes.
+/// A box in some axes at one motion key. Lane 3 is [-1, 1] about an origin of 0, which every ray passes.
 struct alignas(16) KeyBox {
     float low[4] = {0, 0, 0, -1}, high[4] = {0, 0, 0, 1};
 };
@@ -32,22 +32,22 @@ struct alignas(16) KeyBox {
 /// where 1 / 0 would make a NaN of 0 * infinity, and what it moves a ray is far below its rounding.
 inline constexpr float kLeastDirection = 1e-18f;
 
-/// A ray as slab tests read it: origin and one over its direction in a frame's axes. The direction is scaled
+/// A ray as slab tests read it: origin and one over its direction along some axes. The direction is scaled
 /// so that slab depths are depths of the TraceRay.
-struct alignas(16) FrameRay {
+struct alignas(16) RayInAxes {
     float origin[4], inverse_direction[4];
 
-    FrameRay() = default;
+    RayInAxes() = default;
 
     /// For boxes along the axes of space, of which no rotation is needed.
-    explicit FrameRay(const TraceRay& ray) {
+    explicit RayInAxes(const TraceRay& ray) {
         for (int k = 0; k < 3; ++k)
             origin[k] = ray.origin[k], inverse_direction[k] = inverse(ray.direction[k]);
         origin[3] = 0, inverse_direction[3] = inverse(0);
     }
     /// For oriented boxes. Rounds by less than TraceRay::rounding() allows for.
-    FrameRay(const FrameColumns& frame, const TraceRay& ray) {
-        const auto& c = frame.column;
+    RayInAxes(const AxesColumns& axes, const TraceRay& ray) {
+        const auto& c = axes.column;
         for (int k = 0; k < 4; ++k)
             origin[k] = (c[0][k] * ray.origin.x + c[1][k] * ray.origin.y) + c[2][k] * ray.origin.z;
         float direction[4];
@@ -76,10 +76,10 @@ struct DepthInterval {
     }
 };
 
-/// Depths in a moving box: `from` and `to` are its boxes at two keys, in the ray's frame, local_time in [0,
+/// Depths in a moving box: `from` and `to` are its boxes at two keys, in the ray's axes, local_time in [0,
 /// 1] the way between them. The box is grown by `rounding` on all sides, by moving near and far instead of
 /// its planes.
-inline DepthInterval clip(const FrameRay& ray, const KeyBox& from, const KeyBox& to, float local_time,
+inline DepthInterval clip(const RayInAxes& ray, const KeyBox& from, const KeyBox& to, float local_time,
                           float rounding) {
     float near[4], far[4];
     for (int k = 0; k < 4; ++k) {

@@ -12,8 +12,8 @@ V3d orthogonal_to(const V3d& unit) {
     return unit.cross(helper).normalized();
 }
 
-/// A box around a box that is turned from one frame into another.
-Box3f turned(const Box3f& box, const Frame& from, const Frame& to) {
+/// A box around a box that is turned from some axes into others.
+Box3f turned(const Box3f& box, const Axes& from, const Axes& to) {
     const V3f centre = to.from_space(from.to_space((box.min + box.max) * 0.5f));
     const V3f half = (box.max - box.min) * 0.5f;
     V3f extent;
@@ -34,7 +34,7 @@ float largest_coordinate(const Box3f& box) {
     return largest;
 }
 
-Frame frame_of(const V3d& first, const V3d& second) {
+Axes axes_of(const V3d& first, const V3d& second) {
     // Scaled by a power of two near the longer length, so that squares neither overflow nor vanish.
     double largest = 0;
     for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(first[k]), std::abs(second[k])});
@@ -64,28 +64,28 @@ Box3f HyperTrapezoid::at(float time01) const {
 }
 
 bool HyperTrapezoid::contains(const V3f& point, float time01) const {
-    return grown_for_rounding(at(time01)).intersects(frame.from_space(point));
+    return grown_for_rounding(at(time01)).intersects(axes.from_space(point));
 }
 
-HyperTrapezoid HyperTrapezoid::in(const Frame& other, int at_least_keys) const {
+HyperTrapezoid HyperTrapezoid::in(const Axes& other, int at_least_keys) const {
     HyperTrapezoid result{other, {}};
     const int count = std::max(at_least_keys, key_count());
     result.keys.reserve(count);
-    const bool same = other == frame;
+    const bool same = other == axes;
     for (int key = 0; key < count; ++key) {
         const Box3f box =
             count == key_count()
                 ? keys[key]
                 : at(count == 1 ? 0.0f : static_cast<float>(key) / static_cast<float>(count - 1));
-        result.keys.push_back(same ? box : turned(box, frame, other));
+        result.keys.push_back(same ? box : turned(box, axes, other));
     }
     return result;
 }
 
 void HyperTrapezoid::merge(const HyperTrapezoid& other) {
     const int count = std::max(key_count(), other.key_count());
-    if (count > key_count()) *this = in(frame, count);
-    const HyperTrapezoid here = other.in(frame, count);
+    if (count > key_count()) *this = in(axes, count);
+    const HyperTrapezoid here = other.in(axes, count);
     for (int key = 0; key < count; ++key) keys[key].extendBy(here.keys[key]);
 }
 

@@ -30,19 +30,19 @@ struct Swarm {
         for (MovingPoint& p : points)
             for (int k = 0; k < keys; ++k) p.keys.push_back(noise.point(reach));
     }
-    HyperTrapezoid bound(const Frame& frame) const {
-        HyperTrapezoid result{frame, {}};
+    HyperTrapezoid bound(const Axes& axes) const {
+        HyperTrapezoid result{axes, {}};
         for (size_t k = 0; k < points[0].keys.size(); ++k) {
             Box3f box;
-            for (const MovingPoint& p : points) box.extendBy(frame.from_space(p.keys[k]));
+            for (const MovingPoint& p : points) box.extendBy(axes.from_space(p.keys[k]));
             result.keys.push_back(grown_for_rounding(box));
         }
         return result;
     }
 };
 
-Frame random_frame(Noise& noise) {
-    return frame_of(V3d(noise.point(1)), V3d(noise.point(1)));
+Axes random_axes(Noise& noise) {
+    return axes_of(V3d(noise.point(1)), V3d(noise.point(1)));
 }
 
 TEST(LargestCoordinate, IsThatOfAnyCornerOnAnyAxis) {
@@ -57,7 +57,7 @@ TEST(HyperTrapezoid, BoundsLinearMotionWhenItBoundsTheKeys) {
     for (const int keys : {1, 2, 5}) {
         for (int round = 0; round < 200; ++round) {
             const Swarm swarm(noise, keys, std::pow(10.0f, noise(-3, 4)));
-            const HyperTrapezoid bound = swarm.bound(random_frame(noise));
+            const HyperTrapezoid bound = swarm.bound(random_axes(noise));
             for (int i = 0; i < 20; ++i) {
                 const float time = noise(0, 1);
                 for (const MovingPoint& p : swarm.points) ASSERT_TRUE(bound.contains(p.at(time), time));
@@ -67,21 +67,21 @@ TEST(HyperTrapezoid, BoundsLinearMotionWhenItBoundsTheKeys) {
 }
 
 TEST(HyperTrapezoid, TellsWhatIsOutside) {
-    const HyperTrapezoid bound{Frame{}, {Box3f(V3f(0), V3f(1)), Box3f(V3f(10), V3f(11))}};
+    const HyperTrapezoid bound{Axes{}, {Box3f(V3f(0), V3f(1)), Box3f(V3f(10), V3f(11))}};
     EXPECT_TRUE(bound.contains(V3f(5.5f), 0.5f));
     EXPECT_FALSE(bound.contains(V3f(0.5f), 0.5f));
     EXPECT_FALSE(bound.contains(V3f(5.5f), 0));
 }
 
-TEST(HyperTrapezoid, MergingHoldsBothInAnyFramesAndKeyCounts) {
+TEST(HyperTrapezoid, MergingHoldsBothInAnyAxesAndKeyCounts) {
     Noise noise{std::mt19937(5)};
     for (int round = 0; round < 300; ++round) {
         const int counts[] = {1, 2, 3, 5};
         const Swarm a(noise, counts[noise.engine() % 4], 3), b(noise, counts[noise.engine() % 4], 50);
-        HyperTrapezoid merged = a.bound(random_frame(noise));
-        const Frame frame = merged.frame;
-        merged.merge(b.bound(random_frame(noise)));
-        EXPECT_EQ(merged.frame, frame);
+        HyperTrapezoid merged = a.bound(random_axes(noise));
+        const Axes axes = merged.axes;
+        merged.merge(b.bound(random_axes(noise)));
+        EXPECT_EQ(merged.axes, axes);
         for (int i = 0; i < 20; ++i) {
             const float time = noise(0, 1);
             for (const Swarm* swarm : {&a, &b})
@@ -91,23 +91,23 @@ TEST(HyperTrapezoid, MergingHoldsBothInAnyFramesAndKeyCounts) {
 }
 
 TEST(HyperTrapezoid, AreaIsTheMeanOverKeys) {
-    const HyperTrapezoid bound{Frame{}, {Box3f(V3f(0), V3f(1, 2, 3)), Box3f(V3f(5), V3f(5))}};
+    const HyperTrapezoid bound{Axes{}, {Box3f(V3f(0), V3f(1, 2, 3)), Box3f(V3f(5), V3f(5))}};
     EXPECT_DOUBLE_EQ(bound.expected_half_area(), 11 / 2.0);
 }
 
-TEST(Frame, IsOrthonormalAndKeepsTheLongerDirection) {
+TEST(Axes, IsOrthonormalAndKeepsTheLongerDirection) {
     Noise noise{std::mt19937(5)};
     for (int round = 0; round < 300; ++round) {
         const V3d first(noise.point(std::pow(10.0f, noise(-12, 12)))), second(noise.point(1));
-        const Frame frame = frame_of(first, second);
+        const Axes axes = axes_of(first, second);
         for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j) ASSERT_NEAR(frame.axis[i].dot(frame.axis[j]), i == j ? 1 : 0, 1e-6);
+            for (int j = 0; j < 3; ++j) ASSERT_NEAR(axes.axis[i].dot(axes.axis[j]), i == j ? 1 : 0, 1e-6);
         const V3d longer = first.length2() >= second.length2() ? first : second;
-        ASSERT_NEAR(V3d(frame.axis[0]).dot(longer.normalized()), 1, 1e-6);
+        ASSERT_NEAR(V3d(axes.axis[0]).dot(longer.normalized()), 1, 1e-6);
     }
 }
 
-TEST(Frame, OfDirectionsThatVanishOrAreParallelIsStillOne) {
+TEST(Axes, OfDirectionsThatVanishOrAreParallelIsStillOne) {
     const double infinite = std::numeric_limits<double>::infinity();
     for (const auto& [first, second] :
          std::vector<std::pair<V3d, V3d>>{{V3d(0), V3d(0)},
@@ -116,9 +116,9 @@ TEST(Frame, OfDirectionsThatVanishOrAreParallelIsStillOne) {
                                           {V3d(0, 0, 1e-300), V3d(1e-300, 0, 0)},
                                           {V3d(1e300), V3d(-1e300, 1e299, 0)},
                                           {V3d(infinite), V3d(1)}}) {
-        const Frame frame = frame_of(first, second);
+        const Axes axes = axes_of(first, second);
         for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j) ASSERT_NEAR(frame.axis[i].dot(frame.axis[j]), i == j ? 1 : 0, 1e-6);
+            for (int j = 0; j < 3; ++j) ASSERT_NEAR(axes.axis[i].dot(axes.axis[j]), i == j ? 1 : 0, 1e-6);
     }
 }
 

@@ -11,11 +11,6 @@ namespace trapeze {
 /// The most keys, 2^6 + 1: enough for poses of what turns several times while the shutter is open.
 inline constexpr int kMaxKeyCount = 65;
 
-/// Whether a number of keys is 1 or 2^m + 1, so that coarser keys are a part of finer ones.
-constexpr bool is_key_count(int n) {
-    return n == 1 || (n >= 2 && n <= kMaxKeyCount && ((n - 1) & (n - 2)) == 0);
-}
-
 /// Stretches of linear motion between keys; a static thing counts as one.
 constexpr int segment_count(int key_count) {
     return std::max(1, key_count - 1);

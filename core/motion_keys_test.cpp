@@ -5,8 +5,12 @@
 #include <cmath>
 #include <set>
 
+#include "core/motion_keys_harness.h"
+
 namespace trapeze {
 namespace {
+
+using testing::is_key_count;
 
 TEST(MotionKeys, CountsAreOneOrAPowerOfTwoPlusOne) {
     for (const int good : {1, 2, 3, 5, 9, 17, 33, 65}) EXPECT_TRUE(is_key_count(good)) << good;

@@ -10,14 +10,6 @@ constexpr size_t kLeastRoom = 4096;
 
 }  // namespace
 
-/// Samples that want nothing have the depth of kBehindAll, infinity, and so do not count.
-float LayerWindow::least_depth() const {
-    float least = std::numeric_limits<float>::infinity();
-    if (behind.empty()) return -least;
-    for (const Hit& hit : behind) least = std::min(least, hit.depth);
-    return least;
-}
-
 /// The room is the window's, or less where few layers are wanted. `full_` starts at the capacity that is
 /// there already, so that no tile allocates what an earlier one has.
 void LooseHits::begin(size_t sample_count, const LayerWindow& window) {

@@ -28,8 +28,6 @@ struct LayerWindow {
 
     /// Whether anything is wanted of a sample.
     bool wants(size_t sample) const { return behind.empty() || behind[sample].id != MicropolygonId::kNone; }
-    /// Hits at less than this depth are wanted of no sample.
-    float least_depth() const;
 };
 
 /// One a thread. Holds all hits until there is no room for more; then what lies behind the nearest few of

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <variant>
 
-#include "core/axis_frame.h"
+#include "core/axes_around.h"
 #include "core/portable_math.h"
 #include "core/scene/scene.h"
 #include "shade/materials/polygon_parameters.h"
@@ -129,10 +129,10 @@ Stretch stretch_at_hit(const ShadingGrid& grid, const V3f& I, const VertexSteps&
     const RayFootprint& ray = grid.hit_ray;
     const V3f way = unit_or_zero(I);
     if (way == V3f(0, 0, 0) || !along.span_a_plane()) return {};
-    const AxisFrame<float> frame(way);
-    const Stretch found = stretch_to_ellipse(frame.across_of(along.u), frame.across_of(along.v),
-                                             frame.across_of(grid.hit_across[0]),
-                                             frame.across_of(grid.hit_across[1]), ray.width, ray.is_known());
+    const AxesAround<float> axes(way);
+    const Stretch found = stretch_to_ellipse(axes.across_of(along.u), axes.across_of(along.v),
+                                             axes.across_of(grid.hit_across[0]),
+                                             axes.across_of(grid.hit_across[1]), ray.width, ray.is_known());
     return found.is_finite() ? found : Stretch();
 }
 

@@ -62,6 +62,7 @@ double bezier(int i, double t) {
     return kTimes[i] * std::pow(t, i) * std::pow(1 - t, 3 - i);
 }
 
+/// One table, however long: a row is read next to the others.
 std::vector<LightForm> light_forms() {
     constexpr double kHills[4][4] = {{0, .4, 0, -.2}, {.2, .6, -.6, 0}, {.4, -.2, .8, .2}, {0, .2, -.2, .4}};
     std::string hills;

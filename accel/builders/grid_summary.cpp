@@ -9,13 +9,13 @@
 namespace trapeze {
 namespace {
 
-/// Running maxima over keys, in the frame of the vertices given.
+/// Running maxima over keys, in the axes of the vertices given.
 struct Extremes {
     float absolute_max = 0, quad_extent = 0;
 };
 
 /// Takes in one pose of a grid: its largest |coordinate| and its widest micropolygon along any one axis.
-void extend_extremes(const GridShape& shape, const FramedVertices& p, Extremes& extremes) {
+void extend_extremes(const GridShape& shape, const VerticesInAxes& p, Extremes& extremes) {
     const int row = shape.vertices_u();
     for (int k = 0; k < 3; ++k) {
         const float* c = p.c[k];
@@ -43,14 +43,14 @@ V3f vertex_of_key(const Grid& grid, int key, int i, int j) {
     return KeyVertices(grid, key)[grid.shape.tiled_index(i, j)];
 }
 
-void vertices_in_frame(const Grid& grid, int key, const Frame& frame, FramedVertices& out) {
+void vertices_in_axes(const Grid& grid, int key, const Axes& axes, VerticesInAxes& out) {
     const KeyVertices vertices(grid, key);
     int n = 0;
     for (int j = 0; j <= grid.shape.nv; ++j)
         for (int i = 0; i <= grid.shape.nu; ++i, ++n) {
             const V3f p = vertices[grid.shape.tiled_index(i, j)];
             for (int k = 0; k < 3; ++k)
-                out.c[k][n] = (frame.axis[k].x * p.x + frame.axis[k].y * p.y) + frame.axis[k].z * p.z;
+                out.c[k][n] = (axes.axis[k].x * p.x + axes.axis[k].y * p.y) + axes.axis[k].z * p.z;
         }
 }
 
@@ -59,9 +59,9 @@ GridSummary summarise_along_axes(const Grid& grid) {
     summary.weight = static_cast<uint32_t>(grid.shape.micropolygon_count());
 
     Extremes extremes;
-    FramedVertices p;
+    VerticesInAxes p;
     for (int key = 0; key < grid.key_count; ++key) {
-        vertices_in_frame(grid, key, Frame{}, p);
+        vertices_in_axes(grid, key, Axes{}, p);
         extend_extremes(grid.shape, p, extremes);
     }
     // Positions are finite numbers: pack_grid() sees to it.
@@ -90,20 +90,20 @@ GridSummary summarise(const Grid& grid) {
         along_v += V3d(grid.vertex(i, shape.nv, 0.5f)) - V3d(grid.vertex(i, 0, 0.5f));
     along_u /= shape.vertices_v() * shape.nu;  // averages of one edge
     along_v /= shape.vertices_u() * shape.nv;
-    summary.frame = boundable ? frame_of(along_u, along_v) : Frame{};
+    summary.axes = boundable ? axes_of(along_u, along_v) : Axes{};
     const bool long_u = shape.nu >= shape.nv;
-    summary.main_direction = summary.frame.axis[2];
-    // Of one direction alone the frame's first axis is that direction.
+    summary.main_direction = summary.axes.axis[2];
+    // Of one direction alone the first axis is that direction.
     if (is_curve(shape) && boundable)
-        summary.main_direction = frame_of(long_u ? along_u : along_v, V3d(0)).axis[0];
+        summary.main_direction = axes_of(long_u ? along_u : along_v, V3d(0)).axis[0];
     return summary;
 }
 
-std::vector<GridSummary> framed_summaries(const Grids& grids, const PaperTreeOptions& options) {
+std::vector<GridSummary> oriented_summaries(const Grids& grids, const PaperTreeOptions& options) {
     std::vector<GridSummary> summaries(grids.grids.size());
     tbb::parallel_for(size_t{0}, summaries.size(), [&](size_t i) {
         summaries[i] = summarise(grids.grids[i]);
-        if (!options.oriented()) summaries[i].frame = Frame{};
+        if (!options.oriented()) summaries[i].axes = Axes{};
     });
     return summaries;
 }
@@ -115,23 +115,23 @@ std::vector<GridSummary> summaries_along_axes(const Grids& grids) {
     return summaries;
 }
 
-Box3f grown_for_frame(const Box3f& box, float absolute_max) {
+Box3f grown_for_axes(const Box3f& box, float absolute_max) {
     const V3f pad(kBoundRounding * absolute_max + 0x1p-80f);
     return {box.min - pad, box.max + pad};
 }
 
-HyperTrapezoid bound_in_frame(const Grid& grid, float absolute_max, const Frame& frame) {
-    HyperTrapezoid bound{frame, {}};
-    FramedVertices p;
+HyperTrapezoid bound_in_axes(const Grid& grid, float absolute_max, const Axes& axes) {
+    HyperTrapezoid bound{axes, {}};
+    VerticesInAxes p;
     for (int key = 0; key < grid.key_count; ++key) {
         Box3f box(V3f(0), V3f(0));
         if (std::isfinite(absolute_max)) {
-            vertices_in_frame(grid, key, frame, p);
+            vertices_in_axes(grid, key, axes, p);
             for (int k = 0; k < 3; ++k) {
                 const auto [low, high] = std::minmax_element(p.c[k], p.c[k] + grid.shape.vertex_count());
                 box.min[k] = *low, box.max[k] = *high;
             }
-            box = grown_for_frame(box, absolute_max);
+            box = grown_for_axes(box, absolute_max);
         }
         bound.keys.push_back(box);
     }

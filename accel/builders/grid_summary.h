@@ -1,5 +1,5 @@
 /// What top-level builders know of a grid (its place at mid-shutter, its orientation, its weight), and the
-/// bounds of a grid's vertices in any frame.
+/// bounds of a grid's vertices in any axes.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,7 @@ inline constexpr float kBoundableCoordinate = 1e15f;
 struct GridSummary {
     Box3f box;               ///< camera space, axis-aligned, at mid-shutter
     uint32_t weight = 0;     ///< micropolygons: the SAH's cost of the grid
-    Frame frame;             ///< from the averaged edges at mid-shutter [Hou10 sec. 3.3]
+    Axes axes;               ///< from the averaged edges at mid-shutter [Hou10 sec. 3.3]
     V3f main_direction;      ///< unit: average normal of a surface, average segment of a curve
     float absolute_max = 0;  ///< largest coordinate at any key; infinity when not boundable
     float quad_extent = 0;   ///< longest side of the axis-aligned box of any one micropolygon at any key
@@ -27,21 +27,21 @@ struct GridSummary {
     V3f centroid() const { return box.min * 0.5f + box.max * 0.5f; }
 };
 
-/// Reads all vertices of a grid at all of its keys; frames of grids that are not boundable are the axes.
+/// Reads all vertices of a grid at all of its keys; axes of grids that are not boundable are those of space.
 GridSummary summarise(const Grid& grid);
 
-/// Summaries of all grids, in their order, with the frames that a tree's bounds have: those of the grids, or
+/// Summaries of all grids, in their order, with the axes that a tree's bounds have: those of the grids, or
 /// the axes of space unless the tree is oriented.
-std::vector<GridSummary> framed_summaries(const Grids& grids, const PaperTreeOptions& options);
+std::vector<GridSummary> oriented_summaries(const Grids& grids, const PaperTreeOptions& options);
 
 /// Of all grids what trees of single micropolygons along the axes need: weight, absolute_max and quad_extent;
 /// the rest is as it is by default. Takes half the time of summarise().
 std::vector<GridSummary> summaries_along_axes(const Grids& grids);
 
-/// Bound of a whole grid in any frame: a box at each of the grid's own keys, grown for rounding.
+/// Bound of a whole grid in any axes: a box at each of the grid's own keys, grown for rounding.
 /// `absolute_max` is the summary's. A grid without a bound gets a point for each key: the traversal grows
 /// boxes by TraceRay::rounding(absolute_max), which is infinite.
-HyperTrapezoid bound_in_frame(const Grid& grid, float absolute_max, const Frame& frame);
+HyperTrapezoid bound_in_axes(const Grid& grid, float absolute_max, const Axes& axes);
 
 /// Positions of a grid's vertices at one of its own keys, in camera space, by GridShape::tiled_index(). Only
 /// segments are stored: a key's pose is its segment's start, and the last key's is the last segment's start
@@ -70,15 +70,15 @@ class KeyVertices {
 /// Position of vertex (i, j) at one of the grid's own keys, in camera space.
 V3f vertex_of_key(const Grid& grid, int key, int i, int j);
 
-/// Grows a box of coordinates in a frame for the rounding of a rotation and of a lerp in time.
+/// Grows a box of coordinates in some axes for the rounding of a rotation and of a lerp in time.
 /// `absolute_max`: the largest coordinate in space of what was rotated.
-Box3f grown_for_frame(const Box3f& box, float absolute_max);
+Box3f grown_for_axes(const Box3f& box, float absolute_max);
 
-/// Coordinates in a frame of all vertices at one of the grid's own keys; row by row, u fastest.
-struct FramedVertices {
+/// Coordinates in some axes of all vertices at one of the grid's own keys; row by row, u fastest.
+struct VerticesInAxes {
     float c[3][kMaxGridVertices];
 };
-/// The rotation is three products and two sums in a fixed order; grown_for_frame() covers what they round.
-void vertices_in_frame(const Grid& grid, int key, const Frame& frame, FramedVertices& out);
+/// The rotation is three products and two sums in a fixed order; grown_for_axes() covers what they round.
+void vertices_in_axes(const Grid& grid, int key, const Axes& axes, VerticesInAxes& out);
 
 }  // namespace trapeze

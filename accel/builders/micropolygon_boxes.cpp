@@ -32,8 +32,8 @@ void boxes_of_placed(const Grid& grid, float time01, uint32_t first_id, SahItem*
 
 }  // namespace
 
-void boxes_of_grid(const Grid& grid, const Frame& frame, float time01, uint32_t first_id, SahItem* items) {
-    boxes_of_placed(grid, time01, first_id, items, [&](const V3f& p) { return frame.from_space(p); });
+void boxes_of_grid(const Grid& grid, const Axes& axes, float time01, uint32_t first_id, SahItem* items) {
+    boxes_of_placed(grid, time01, first_id, items, [&](const V3f& p) { return axes.from_space(p); });
 }
 
 void micropolygon_items(const Grids& grids, const std::vector<GridSummary>& summaries,

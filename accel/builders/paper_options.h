@@ -23,7 +23,7 @@ struct PaperTreeOptions {
     /// A node above grids is bounded by merging its children's boxes alone, as the paper says it
     /// [Hou10 sec. 3.3]; else from what is in its leaves, where these are few [decision 0008].
     bool bounds_from_children = false;
-    /// A ray is turned once into the frame that several nodes on its way have; else anew at each.
+    /// A ray is turned once into the axes that several nodes on its way have; else anew at each.
     bool keep_turned_rays = false;
 
     bool oriented() const { return bounds == Bounds::Oriented; }

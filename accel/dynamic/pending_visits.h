@@ -94,7 +94,7 @@ class PendingVisits {
     static constexpr size_t kShallow = 96;
 
     const TraceRay& ray_;
-    FrameRay along_axes_;
+    RayInAxes along_axes_;
     float rounding_, slack_;
     std::array<Visit, kShallow> shallow_;
     std::vector<Visit> deep_;

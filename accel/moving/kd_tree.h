@@ -107,7 +107,7 @@ void KdTree::trace(TraceRay& ray, Policy& policy, SampleStats& stats) const {
     for (const MicropolygonId& id : unbounded_)
         test_micropolygon(grids_.grids[id.grid], id, ray, policy, stats);
     if (nodes_.empty()) return;
-    const FrameRay along_axes(ray);
+    const RayInAxes along_axes(ray);
     const float rounding = ray.rounding(absolute_max_);
     const DepthInterval whole = clip(along_axes, box_, box_, 0, rounding);
     float depth;

@@ -69,7 +69,7 @@ TEST(KdTopology, LeavesHaveWhatIsInThemAtTheTime) {
     Noise noise;
     GridMaker maker;
     for (const int keys : {1, 2, 3, 5}) testing::add_strips(maker, 300, keys, noise);
-    const SweptBoxes boxes(maker.grids(), framed_summaries(maker.grids(), {}));
+    const SweptBoxes boxes(maker.grids(), oriented_summaries(maker.grids(), {}));
     for (const float plane_time : {0.f, .5f}) {
         const KdTopology topology = build_kd_topology(maker.grids(), boxes, {.plane_time = plane_time});
         EXPECT_GT(topology.guests, 500u);
@@ -180,7 +180,7 @@ TEST(KdTopology, IsTheSameFromAnyNumberOfThreads) {
     Noise noise;
     GridMaker maker;
     testing::add_strips(maker, 40000, 2, noise);
-    const SweptBoxes boxes(maker.grids(), framed_summaries(maker.grids(), {}));
+    const SweptBoxes boxes(maker.grids(), oriented_summaries(maker.grids(), {}));
     std::vector<KdTopology> all;
     for (const int threads : {1, 2, 7}) {
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism,

@@ -255,7 +255,7 @@ TEST(SpatialTopology, ReferencesHoldAllOfTheirMicropolygons) {
     add_strips(maker, 2000, 3, noise);
     UnsetVector<MicropolygonId> ids;
     UnsetVector<SahItem> items;
-    micropolygon_items(maker.grids(), framed_summaries(maker.grids(), {}), ids, items);
+    micropolygon_items(maker.grids(), oriented_summaries(maker.grids(), {}), ids, items);
     for (const bool tight : {true, false}) {
         const SpatialTopology topology =
             build_spatial_topology(items, maker.grids(), {.leaf_below = 4, .budget = 8000, .tight = tight});

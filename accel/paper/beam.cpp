@@ -56,7 +56,7 @@ Beam::Beam(std::span<const AxisRay> rays, std::span<const uint32_t> indices, Dep
     }
 }
 
-bool Beam::meets(const FrameColumns& frame, const KeyBox& box, float absolute_max, float slack) const {
+bool Beam::meets(const AxesColumns& axes, const KeyBox& box, float absolute_max, float slack) const {
     // As TraceRay::rounding(), for the steepest ray that starts farthest out: it holds for all of them.
     const float steepest = std::max(std::abs(slope_min.x), std::abs(slope_max.x)) +
                            std::max(std::abs(slope_min.y), std::abs(slope_max.y));
@@ -69,12 +69,12 @@ bool Beam::meets(const FrameColumns& frame, const KeyBox& box, float absolute_ma
     Interval ahead{std::max(nearest_depth, 0.0f), farthest_depth};
     Interval behind{std::max(-farthest_depth, 0.0f), -nearest_depth};
     for (int k = 0; k < 3; ++k) {
-        const auto& c = frame.column;
+        const auto& c = axes.column;
         const Interval ox = product(c[0][k], origin_min.x, origin_max.x);
         const Interval oy = product(c[1][k], origin_min.y, origin_max.y);
         const Interval ux = product(c[0][k], slope_min.x, slope_max.x);
         const Interval uy = product(c[1][k], slope_min.y, slope_max.y);
-        // Origins are at z = 0, and directions have z = 1: only slopes get the frame's third column.
+        // Origins are at z = 0, and directions have z = 1: only slopes get the axes' third column.
         const Interval origin{ox.min + oy.min, ox.max + oy.max};
         const Interval slope{ux.min + uy.min + c[2][k], ux.max + uy.max + c[2][k]};
         const float low = box.low[k] - rounding, high = box.high[k] + rounding;

@@ -19,10 +19,10 @@ struct Beam {
     /// The beam of the rays at some indices, of which there is at least one.
     Beam(std::span<const AxisRay> rays, std::span<const uint32_t> indices, DepthRange depths);
 
-    /// Whether some ray may pass a box (coordinates of `frame`, for the beam's whole time), grown by its
+    /// Whether some ray may pass a box (coordinates of `axes`, for the beam's whole time), grown by its
     /// rounding, at a depth in the range grown by `slack` on both ends. `absolute_max`: the largest
     /// coordinate in space of what the box holds.
-    bool meets(const FrameColumns& frame, const KeyBox& box, float absolute_max, float slack) const;
+    bool meets(const AxesColumns& axes, const KeyBox& box, float absolute_max, float slack) const;
 };
 
 }  // namespace trapeze

@@ -15,10 +15,10 @@ namespace {
 
 using testing::Noise;
 
-/// Whether a ray passes a box of a frame, in doubles.
-bool passes(const AxisRay& ray, const FrameColumns& frame, const KeyBox& box, double near, double far) {
+/// Whether a ray passes a box of some axes, in doubles.
+bool passes(const AxisRay& ray, const AxesColumns& axes, const KeyBox& box, double near, double far) {
     for (int k = 0; k < 3; ++k) {
-        const auto& c = frame.column;
+        const auto& c = axes.column;
         const double origin = double{c[0][k]} * ray.ox + double{c[1][k]} * ray.oy;
         const double slope = double{c[0][k]} * ray.ux + double{c[1][k]} * ray.uy + c[2][k];
         const double a = (box.low[k] - origin) / slope, b = (box.high[k] - origin) / slope;
@@ -41,15 +41,15 @@ TEST(Beam, NeverGivesUpWhatARayOfItPasses) {
         std::iota(indices.begin(), indices.end(), 0u);
         const DepthRange range{noise(0, 2), noise(3, 9)};
         const Beam beam(rays, indices, range);
-        const Frame frame =
-            frame_of(V3d(noise(-1, 1), noise(-1, 1), noise(-1, 1)), V3d(noise(-1, 1), noise(-1, 1), 1));
+        const Axes axes =
+            axes_of(V3d(noise(-1, 1), noise(-1, 1), noise(-1, 1)), V3d(noise(-1, 1), noise(-1, 1), 1));
         // A box about a point near the beam.
         const float z = noise(-1, 10);
-        const V3f middle = frame.from_space(V3f(ux * z + noise(-1, 1), uy * z + noise(-1, 1), z));
+        const V3f middle = axes.from_space(V3f(ux * z + noise(-1, 1), uy * z + noise(-1, 1), z));
         KeyBox box;
         for (int k = 0; k < 3; ++k)
             box.low[k] = middle[k] - noise(0, 1), box.high[k] = middle[k] + noise(0, 1);
-        const FrameColumns columns(frame);
+        const AxesColumns columns(axes);
         bool any = false;
         for (const AxisRay& ray : rays) any |= passes(ray, columns, box, range.min, range.max);
         const bool met = beam.meets(columns, box, 12, 0);
@@ -67,8 +67,8 @@ TEST(Beam, SlackReachesBehindTheLens) {
     KeyBox behind;
     for (int k = 0; k < 3; ++k) behind.low[k] = -1, behind.high[k] = 1;
     behind.low[2] = -3, behind.high[2] = -2;
-    EXPECT_FALSE(beam.meets(FrameColumns(Frame{}), behind, 3, 1));
-    EXPECT_TRUE(beam.meets(FrameColumns(Frame{}), behind, 3, 2.5f));
+    EXPECT_FALSE(beam.meets(AxesColumns(Axes{}), behind, 3, 1));
+    EXPECT_TRUE(beam.meets(AxesColumns(Axes{}), behind, 3, 2.5f));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ class PoseBounds {
 
     /// Adds a pose. The bounds of the children of inner nodes go to pairs(), by number of the parent; that
     /// of the whole grid is returned.
-    Box3f add(const FramedVertices& vertices, const GridBlock& all) {
+    Box3f add(const VerticesInAxes& vertices, const GridBlock& all) {
         vertices_ = &vertices;
         return bound(all, 0);
     }
@@ -49,7 +49,7 @@ class PoseBounds {
 
     const ParametricSplits& splits_;
     int row_;
-    const FramedVertices* vertices_ = nullptr;
+    const VerticesInAxes* vertices_ = nullptr;
     /// Low and high child of each inner node; a grid has at most 255 (16 x 16, single micropolygons as
     /// leaves).
     std::array<std::array<Box3f, 2>, 256> pairs_;
@@ -94,7 +94,7 @@ InGridTrees::InGridTrees(std::span<const Grid> grids, std::span<const GridSummar
     for (size_t i = 0; i < grids.size(); ++i) {
         // Sizes follow from shapes, so that all places are known before any grid is bounded.
         const uint32_t inner = splits_.inner_nodes({0, 0, grids[i].shape.nu, grids[i].shape.nv});
-        entries_[i] = {FrameColumns(summaries[i].frame), summaries[i].absolute_max, summaries[i].quad_extent,
+        entries_[i] = {AxesColumns(summaries[i].axes), summaries[i].absolute_max, summaries[i].quad_extent,
                        records, references};
         records += inner * box_keys(grids[i]);
         references += box_keys(grids[i]);
@@ -114,17 +114,17 @@ void InGridTrees::build_grid(const Grid& grid, const GridSummary& summary, const
     const uint32_t inner = splits_.inner_nodes(all);
     const int keys = box_keys(grid), poses = grid.key_count / keys;  // poses in a box: one or all
     const bool boundable = std::isfinite(summary.absolute_max);
-    bound.frame = summary.frame;
+    bound.axes = summary.axes;
     bound.keys.clear();
-    FramedVertices vertices;
+    VerticesInAxes vertices;
     for (int key = 0; key < keys; ++key) {
         PoseBounds bounds(splits_, shape.vertices_u());
         Box3f root;
         for (int pose = key * poses; pose < (key + 1) * poses; ++pose) {
-            vertices_in_frame(grid, pose, summary.frame, vertices);
+            vertices_in_axes(grid, pose, summary.axes, vertices);
             root.extendBy(bounds.add(vertices, all));
         }
-        bound.keys.push_back(boundable ? grown_for_frame(root, summary.absolute_max) : point_box());
+        bound.keys.push_back(boundable ? grown_for_axes(root, summary.absolute_max) : point_box());
         if (!boundable) continue;  // quanta and steps stay 0
 
         const Box3f& outer = bound.keys.back();
@@ -149,7 +149,7 @@ void InGridTrees::build_grid(const Grid& grid, const GridSummary& summary, const
 }
 
 InGridTree::InGridTree(const InGridTrees& trees, const Grid& grid, uint32_t grid_index, const TraceRay& ray,
-                       const FrameRay* along_axes)
+                       const RayInAxes* along_axes)
     : splits_(trees.splits_),
       key_count_(trees.box_keys(grid)),
       root_(pack({0, 0, grid.shape.nu, grid.shape.nv}, 0)) {
@@ -163,7 +163,7 @@ InGridTree::InGridTree(const InGridTrees& trees, const Grid& grid, uint32_t grid
     slack_ = entry.quad_extent + rounding;
     // A slab's plane is low(t) + quantum(t) * step(t), and its depth (plane - origin) / direction: linear
     // in the quanta of both keys.
-    const FrameRay local = along_axes ? *along_axes : FrameRay(entry.frame, ray);
+    const RayInAxes local = along_axes ? *along_axes : RayInAxes(entry.axes, ray);
     const InGridTrees::Reference& from = trees.references_[entry.first_reference + segment.index];
     const InGridTrees::Reference& to = key_count_ > 1 ? (&from)[1] : from;
     for (int k = 0; k < 4; ++k) {

@@ -61,13 +61,13 @@ class InGridTrees {
     friend class InGridTree;
 
     /// A grid's box at a key, which quanta count from: its low corner and the length of a quantum, in the
-    /// grid's frame, lane 3 unused.
+    /// grid's axes, lane 3 unused.
     struct alignas(16) Reference {
         float low[4] = {}, step[4] = {};
     };
-    /// One grid: the frame that all of its nodes share, and where its records are.
+    /// One grid: the axes that all of its nodes share, and where its records are.
     struct Entry {
-        FrameColumns frame;
+        AxesColumns axes;
         float absolute_max = 0, quad_extent = 0;
         uint32_t first_record = 0;     ///< in records_, in units of kRecordSize
         uint32_t first_reference = 0;  ///< in references_
@@ -86,7 +86,7 @@ class InGridTrees {
     size_t inner_nodes_ = 0;
 };
 
-/// One grid's tree, prepared for one ray: the ray is transformed into the grid's frame once, and quanta turn
+/// One grid's tree, prepared for one ray: the ray is transformed into the grid's axes once, and quanta turn
 /// into depths by one multiplication and addition each. A RayTree whose leaves are blocks.
 class InGridTree {
   public:
@@ -94,7 +94,7 @@ class InGridTree {
 
     /// `along_axes`: the ray as the boxes of an axis-aligned tree see it; null of an oriented one.
     InGridTree(const InGridTrees& trees, const Grid& grid, uint32_t grid_index, const TraceRay& ray,
-               const FrameRay* along_axes);
+               const RayInAxes* along_axes);
 
     /// The root is always visited: the level above has tested its box.
     Visits enter(const TraceRay&) const {

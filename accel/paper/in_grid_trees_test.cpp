@@ -48,14 +48,14 @@ TEST(InGridTrees, SplitsTheLongerSideInTheMiddle) {
 }
 
 TEST(GridSummary, OrientationIsThatOfAveragedEdges) {
-    const Frame turned = frame_of(V3d(1, 2, 0.5), V3d(-2, 1, 1));
+    const Axes turned = axes_of(V3d(1, 2, 0.5), V3d(-2, 1, 1));
     testing::GridMaker maker;
     const Grid& grid = maker.add(8, 4, 2, [&](int i, int j, float t) {
         return turned.axis[0] * (2.0f * static_cast<float>(i)) + turned.axis[1] * static_cast<float>(j) +
                V3f(0, 5 * t, 0);
     });
     const GridSummary summary = summarise(grid);
-    for (int k = 0; k < 3; ++k) EXPECT_NEAR(summary.frame.axis[k].dot(turned.axis[k]), 1, 1e-5);
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(summary.axes.axis[k].dot(turned.axis[k]), 1, 1e-5);
     EXPECT_EQ(summary.weight, 32u);
     EXPECT_NEAR(std::abs(summary.main_direction.dot(turned.axis[2])), 1, 1e-5);
     EXPECT_GE(summary.quad_extent, 2 * std::abs(turned.axis[0].y));

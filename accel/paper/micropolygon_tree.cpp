@@ -20,11 +20,11 @@ constexpr size_t kSweepUpTo = 64;
 /// things fly past each other.
 constexpr size_t kBoundFromVerticesUpTo = 32;
 
-/// Bound in a frame of some micropolygons of one grid, from their vertices: a box at each of the grid's keys,
-/// or one box for all times.
-HyperTrapezoid bound_in(const Frame& frame, const Grid& grid, std::span<const MicropolygonId> part,
+/// Bound in some axes of some micropolygons of one grid, from their vertices: a box at each of the grid's
+/// keys, or one box for all times.
+HyperTrapezoid bound_in(const Axes& axes, const Grid& grid, std::span<const MicropolygonId> part,
                         float absolute_max, bool whole_motion) {
-    HyperTrapezoid bound{frame, {}};
+    HyperTrapezoid bound{axes, {}};
     if (!std::isfinite(absolute_max)) {  // its rounding makes it infinite
         bound.keys = {Box3f(V3f(0), V3f(0))};
         return bound;
@@ -34,8 +34,8 @@ HyperTrapezoid bound_in(const Frame& frame, const Grid& grid, std::span<const Mi
         for (const MicropolygonId& id : part)
             for (int corner = 0; corner < 4; ++corner)
                 box.extendBy(
-                    frame.from_space(vertex_of_key(grid, key, id.u + (corner & 1), id.v + (corner >> 1))));
-        box = grown_for_frame(box, absolute_max);
+                    axes.from_space(vertex_of_key(grid, key, id.u + (corner & 1), id.v + (corner >> 1))));
+        box = grown_for_axes(box, absolute_max);
         if (whole_motion && key > 0)
             bound.keys[0].extendBy(box);
         else
@@ -55,7 +55,7 @@ void for_each_grid(std::span<const MicropolygonId> list, OfGrid&& of_grid) {
 }
 
 /// The orientation of some micropolygons, from their averaged edges at mid-shutter as for a grid.
-Frame frame_of_micropolygons(const Grids& grids, std::span<const MicropolygonId> list) {
+Axes axes_of_micropolygons(const Grids& grids, std::span<const MicropolygonId> list) {
     V3d along_u(0), along_v(0);
     for (const MicropolygonId& id : list) {
         const Grid& grid = grids.grids[id.grid];
@@ -64,13 +64,13 @@ Frame frame_of_micropolygons(const Grids& grids, std::span<const MicropolygonId>
         along_u += (corner[1] - corner[0]) + (corner[3] - corner[2]);
         along_v += (corner[2] - corner[0]) + (corner[3] - corner[1]);
     }
-    return frame_of(along_u, along_v);
+    return axes_of(along_u, along_v);
 }
 
 }  // namespace
 
 MicropolygonTree::MicropolygonTree(const Grids& grids, const PaperTreeOptions& options) : ListTree(grids) {
-    const std::vector<GridSummary> summaries = framed_summaries(grids, options);
+    const std::vector<GridSummary> summaries = oriented_summaries(grids, options);
     build_topology(summaries, options);
 }
 
@@ -102,21 +102,21 @@ void MicropolygonTree::build_topology(const std::vector<GridSummary>& summaries,
 
     const LeafBounds bounds{
         [&](uint32_t index) { return leaf_bound(index, summaries, options); },
-        [&](uint32_t index, const Frame& frame) { return leaf_bound_in(frame, index, summaries, options); },
+        [&](uint32_t index, const Axes& axes) { return leaf_bound_in(axes, index, summaries, options); },
         kBoundFromVerticesUpTo};
     top_ = bound_top_level(topology.tree, leaf_count(), grids_->max_key_count(), options, bounds);
     count_built(sizeof(*this));
 }
 
-HyperTrapezoid MicropolygonTree::leaf_bound_in(const Frame& frame, uint32_t index,
+HyperTrapezoid MicropolygonTree::leaf_bound_in(const Axes& axes, uint32_t index,
                                                const std::vector<GridSummary>& summaries,
                                                const PaperTreeOptions& options) const {
     const bool whole_motion = options.bounds == PaperTreeOptions::Bounds::WholeMotion;
-    HyperTrapezoid all{frame, {}};
+    HyperTrapezoid all{axes, {}};
     for_each_grid(leaf(index), [&](std::span<const MicropolygonId> part) {
         const uint32_t grid = part[0].grid;
         const HyperTrapezoid bound =
-            bound_in(frame, grids_->grids[grid], part, summaries[grid].absolute_max, whole_motion);
+            bound_in(axes, grids_->grids[grid], part, summaries[grid].absolute_max, whole_motion);
         if (all.keys.empty())
             all = bound;
         else
@@ -130,21 +130,21 @@ NodeBound MicropolygonTree::leaf_bound(uint32_t index, const std::vector<GridSum
     const std::span<const MicropolygonId> list = leaf(index);
     NodeBound smallest;
     double least_area = std::numeric_limits<double>::infinity();
-    // Candidates for the leaf's orientation: the frames of its grids, then that of its own edges.
-    const auto consider = [&](const Frame& frame) {
-        HyperTrapezoid bound = leaf_bound_in(frame, index, summaries, options);
+    // Candidates for the leaf's orientation: the axes of its grids, then those of its own edges.
+    const auto consider = [&](const Axes& axes) {
+        HyperTrapezoid bound = leaf_bound_in(axes, index, summaries, options);
         const double area = bound.expected_half_area();
         if (smallest.box.keys.empty() || area < least_area)
             smallest.box = std::move(bound), least_area = area;
     };
     for_each_grid(list, [&](std::span<const MicropolygonId> part) {
         const GridSummary& grid = summaries[part[0].grid];
-        if (smallest.box.keys.empty() || !(grid.frame == smallest.box.frame)) consider(grid.frame);
+        if (smallest.box.keys.empty() || !(grid.axes == smallest.box.axes)) consider(grid.axes);
         smallest.absolute_max = std::max(smallest.absolute_max, grid.absolute_max);
         smallest.quad_extent = std::max(smallest.quad_extent, grid.quad_extent);
     });
     if (options.oriented() && std::isfinite(smallest.absolute_max))
-        consider(frame_of_micropolygons(*grids_, list));
+        consider(axes_of_micropolygons(*grids_, list));
     return smallest;
 }
 

@@ -22,9 +22,8 @@ class MicropolygonTree final : public ListTree {
   private:
     /// Sorts micropolygons into leaves and bounds the nodes above them.
     void build_topology(const std::vector<GridSummary>& summaries, const PaperTreeOptions& options);
-    /// Bound of a leaf in a given frame, at as many keys as its grids have at most.
-    HyperTrapezoid leaf_bound_in(const Frame& frame, uint32_t index,
-                                 const std::vector<GridSummary>& summaries,
+    /// Bound of a leaf in given axes, at as many keys as its grids have at most.
+    HyperTrapezoid leaf_bound_in(const Axes& axes, uint32_t index, const std::vector<GridSummary>& summaries,
                                  const PaperTreeOptions& options) const;
     /// Bound of a leaf in that orientation which makes its expected area least.
     NodeBound leaf_bound(uint32_t index, const std::vector<GridSummary>& summaries,

@@ -105,7 +105,7 @@ TEST(PaperTreeOptions, WithoutPropagationNodesAboveLeavesAreAxisAligned) {
         const PaperTree tree(maker.grids(), {.orient_propagation = propagation});
         int turned_inner = 0, turned_leaves = 0;
         for (size_t i = 0; i < tree.top().nodes.size(); ++i) {
-            const bool turned = tree.top().frame_of(i).column[0][0] != 1;
+            const bool turned = tree.top().axes_of(i).column[0][0] != 1;
             (tree.top().nodes[i].link.is_leaf() ? turned_leaves : turned_inner) += turned;
         }
         EXPECT_EQ(turned_leaves, 50);

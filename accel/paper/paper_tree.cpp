@@ -22,8 +22,8 @@ PaperTree::PaperTree(const Grids& grids, const PaperTreeOptions& options,
         [&](uint32_t grid) {
             return NodeBound{grid_bounds_[grid], summaries[grid].absolute_max, summaries[grid].quad_extent};
         },
-        [&](uint32_t grid, const Frame& frame) {
-            return bound_in_frame(grids.grids[grid], summaries[grid].absolute_max, frame);
+        [&](uint32_t grid, const Axes& axes) {
+            return bound_in_axes(grids.grids[grid], summaries[grid].absolute_max, axes);
         },
         kTightUpTo};
     top_ = bound_top_level(build_top_topology(summaries, options.orient_split), count, grids.max_key_count(),

@@ -30,7 +30,7 @@ class PaperTree final : public RayQuery {
     /// Builds the tree in parallel. Keeps a reference to the grids, which must not change while the tree is
     /// in use.
     explicit PaperTree(const Grids& grids, const PaperTreeOptions& options = {})
-        : PaperTree(grids, options, framed_summaries(grids, options)) {}
+        : PaperTree(grids, options, oriented_summaries(grids, options)) {}
 
     /// Shows the policy (accel/hit_policies.h) the hits of a ray, near ones first as far as bounds tell.
     /// Counts nodes, leaves and tests into `stats`. Safe from many threads at once.

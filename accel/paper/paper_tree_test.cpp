@@ -170,7 +170,7 @@ std::vector<uint32_t> walk(const TopLevel& top, size_t index, Visit&& visit) {
 void expect_inside(const TopLevel& top, size_t index, const Grid& grid, Noise& noise) {
     const float time = noise(0, 1);
     const MotionSegment s = segment_at(time, top.key_count);
-    const auto& column = top.frame_of(index).column;
+    const auto& column = top.axes_of(index).column;
     const KeyBox *box = top.boxes_of(index) + s.index, *next = top.key_count > 1 ? box + 1 : box;
     const V3f p = grid.vertex(static_cast<int>(noise.engine() % grid.shape.vertices_u()),
                               static_cast<int>(noise.engine() % grid.shape.vertices_v()), time);
@@ -199,7 +199,7 @@ TEST(PaperTree, EveryNodeHoldsTheVerticesBelowAtAnyTime) {
 }
 
 /// Nodes of more than 1024 grids are bounded from their children's boxes, each of which is turned: fibres
-/// that all run alike, along no axis, keep such nodes oriented, in frames that differ.
+/// that all run alike, along no axis, keep such nodes oriented, in axes that differ.
 TEST(PaperTree, NodesOfThousandsOfGridsHoldWhatIsBelow) {
     for (const int keys : {1, 2}) {
         Noise noise;
@@ -222,7 +222,7 @@ TEST(PaperTree, NodesOfThousandsOfGridsHoldWhatIsBelow) {
             for (const uint32_t child : {first, first + 1})
                 for (size_t row = 0; row < 3; ++row)
                     turned +=
-                        !std::ranges::equal(top.frame_of(index).column[row], top.frame_of(child).column[row]);
+                        !std::ranges::equal(top.axes_of(index).column[row], top.axes_of(child).column[row]);
             for (const uint32_t grid : below)
                 for (int round = 0; round < 4; ++round)
                     expect_inside(top, index, maker.grids().grids[grid], noise);

@@ -26,11 +26,11 @@ class Bounding {
           leaf_bounds_(leaf_bounds),
           top_(top),
           leaves_(topology.inner.size() + 1),
-          frames_(top.oriented ? leaves_.size() + 1 : 0) {
-        if (top.oriented) frames_.back() = FrameColumns(Frame{});
+          axes_sets_(top.oriented ? leaves_.size() + 1 : 0) {
+        if (top.oriented) axes_sets_.back() = AxesColumns(Axes{});
     }
     /// Of leaves from left to right, and the axes of space.
-    std::vector<FrameColumns> frames() && { return std::move(frames_); }
+    std::vector<AxesColumns> axes_sets() && { return std::move(axes_sets_); }
 
     /// The subtree below a link, with its leaves counted from left to right. Inner nodes are in preorder, so
     /// that a subtree's are those from its root's on; it has a leaf more than inner nodes.
@@ -46,9 +46,9 @@ class Bounding {
         if (part.link.is_leaf()) {
             NodeBound leaf = leaf_bounds_.own(part.link.index());
             // The top level has as many keys as any grid: a leaf of fewer gets boxes in between.
-            leaf.box = leaf.box.in(leaf.box.frame, top_.key_count);
+            leaf.box = leaf.box.in(leaf.box.axes, top_.key_count);
             leaves_[part.first_leaf] = {part.link.index(), leaf.box};
-            leaf.frame = static_cast<uint32_t>(part.first_leaf);
+            leaf.axes = static_cast<uint32_t>(part.first_leaf);
             return leaf;
         }
         NodeBound child[2];
@@ -62,18 +62,18 @@ class Bounding {
         else
             build(0), build(1);
         HyperTrapezoid box = union_of(part, child[0].box, child[1].box);
-        const uint32_t frame = box.frame == child[0].box.frame   ? child[0].frame
-                               : box.frame == child[1].box.frame ? child[1].frame
-                                                                 : static_cast<uint32_t>(leaves_.size());
+        const uint32_t axes = box.axes == child[0].box.axes   ? child[0].axes
+                              : box.axes == child[1].box.axes ? child[1].axes
+                                                              : static_cast<uint32_t>(leaves_.size());
         return {std::move(box), std::max(child[0].absolute_max, child[1].absolute_max),
-                std::max(child[0].quad_extent, child[1].quad_extent), frame};
+                std::max(child[0].quad_extent, child[1].quad_extent), axes};
     }
 
     /// Stores a bound as node `index` of the tree: one KeyBox a key, side by side. Subtrees write apart from
     /// each other, so that parallel tasks may call it.
     void set_node(size_t index, TopLink link, const NodeBound& bound) {
-        top_.nodes[index] = {bound.absolute_max, bound.quad_extent, link, bound.frame};
-        if (top_.oriented && link.is_leaf()) frames_[bound.frame] = FrameColumns(bound.box.frame);
+        top_.nodes[index] = {bound.absolute_max, bound.quad_extent, link, bound.axes};
+        if (top_.oriented && link.is_leaf()) axes_sets_[bound.axes] = AxesColumns(bound.box.axes);
         for (int key = 0; key < top_.key_count; ++key) {
             KeyBox& box = top_.boxes[index * top_.key_count + key] = KeyBox();
             for (int k = 0; k < 3; ++k) {
@@ -96,31 +96,31 @@ class Bounding {
     /// The bound of two children together: axis-aligned without propagation, else in the orientation of that
     /// child which makes it smaller, the first one's of equals.
     HyperTrapezoid union_of(const Part& part, const HyperTrapezoid& a, const HyperTrapezoid& b) const {
-        if (!options_.orient_propagation) return union_in(Frame{}, part, a, b);
-        HyperTrapezoid in_a = union_in(a.frame, part, a, b);
-        if (a.frame == b.frame) return in_a;
-        HyperTrapezoid in_b = union_in(b.frame, part, a, b);
+        if (!options_.orient_propagation) return union_in(Axes{}, part, a, b);
+        HyperTrapezoid in_a = union_in(a.axes, part, a, b);
+        if (a.axes == b.axes) return in_a;
+        HyperTrapezoid in_b = union_in(b.axes, part, a, b);
         return in_b.expected_half_area() < in_a.expected_half_area() ? in_b : in_a;
     }
-    /// That bound in a given frame: from the children where they have it (or are large), else from the leaves
+    /// That bound in given axes: from the children where they have it (or are large), else from the leaves
     /// or what is in them, each turned once [decision 0008].
-    HyperTrapezoid union_in(const Frame& frame, const Part& part, const HyperTrapezoid& a,
+    HyperTrapezoid union_in(const Axes& axes, const Part& part, const HyperTrapezoid& a,
                             const HyperTrapezoid& b) const {
-        HyperTrapezoid both{frame, std::vector<Box3f>(static_cast<size_t>(top_.key_count))};
+        HyperTrapezoid both{axes, std::vector<Box3f>(static_cast<size_t>(top_.key_count))};
         if (options_.bounds_from_children || part.leaf_count > kFromLeavesUpTo ||
-            (a.frame == frame && b.frame == frame)) {
+            (a.axes == axes && b.axes == axes)) {
             both.merge(a);
             both.merge(b);
             return both;
         }
         const bool from_contents = part.leaf_count <= leaf_bounds_.in_up_to;
         for (const Leaf& leaf : std::span(leaves_).subspan(part.first_leaf, part.leaf_count))
-            both.merge(from_contents && !(leaf.box.frame == frame) ? leaf_bounds_.in(leaf.index, frame)
-                                                                   : leaf.box);
+            both.merge(from_contents && !(leaf.box.axes == axes) ? leaf_bounds_.in(leaf.index, axes)
+                                                                 : leaf.box);
         return both;
     }
 
-    /// What LeafBounds::own() gave, at as many keys as the tree has: nodes above read it again for each frame
+    /// What LeafBounds::own() gave, at as many keys as the tree has: nodes above read it again for all axes
     /// that they try.
     struct Leaf {
         uint32_t index = 0;
@@ -132,7 +132,7 @@ class Bounding {
     const LeafBounds& leaf_bounds_;
     TopLevel& top_;
     std::vector<Leaf> leaves_;
-    std::vector<FrameColumns> frames_;
+    std::vector<AxesColumns> axes_sets_;
 };
 
 }  // namespace
@@ -148,7 +148,7 @@ TopLevel bound_top_level(const TopTopology& topology, size_t leaf_count, int key
     Bounding bounding(topology, options, leaves, top);
     bounding.set_node(top.nodes.size() - 1, topology.root, bounding.bound(bounding.all(), 0));
     if (top.oriented)
-        top.frames = std::make_shared<const std::vector<FrameColumns>>(std::move(bounding).frames());
+        top.axes_sets = std::make_shared<const std::vector<AxesColumns>>(std::move(bounding).axes_sets());
     top.keeps_turned_rays = top.oriented && options.keep_turned_rays;
     return top;
 }

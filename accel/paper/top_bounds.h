@@ -15,14 +15,14 @@ struct NodeBound {
     HyperTrapezoid box;
     float absolute_max = 0;  ///< largest coordinate of what is inside
     float quad_extent = 0;   ///< longest side of the box of any one micropolygon inside
-    uint32_t frame = 0;      ///< the box's, by number: that of a leaf, counted from left to right, or none's
+    uint32_t axes = 0;       ///< the box's, by number: that of a leaf, counted from left to right, or none's
 };
 
 /// How leaves are bounded; called from many threads, perhaps several times for a leaf.
 struct LeafBounds {
     std::function<NodeBound(uint32_t leaf)> own;  ///< in the leaf's orientation
     /// The leaf's contents in another orientation, tighter than its own box turned.
-    std::function<HyperTrapezoid(uint32_t leaf, const Frame& frame)> in;
+    std::function<HyperTrapezoid(uint32_t leaf, const Axes& axes)> in;
     /// A box that is turned into another orientation grows, which a small node feels more than a large one:
     /// nodes of up to this many leaves are bounded from what is in these.
     size_t in_up_to;

@@ -47,7 +47,7 @@ class Pruning {
         ++looked_at;
         const TopLevel::Node& node = from_.nodes[index];
         const KeyBox box = box_during(from_.boxes_of(index), from_.key_count, beam_.time_min, beam_.time_max);
-        if (!beam_.meets(from_.frame_of(index), box, node.absolute_max, node.quad_extent)) return {};
+        if (!beam_.meets(from_.axes_of(index), box, node.absolute_max, node.quad_extent)) return {};
         if (node.link.is_leaf()) return Kept{index, node.link};
         const size_t first = 2 * size_t{node.link.index()};
         const std::optional<Kept> low = visit(first), high = visit(first + 1);
@@ -59,7 +59,7 @@ class Pruning {
         return Kept{index, TopLink::inner(inner)};
     }
 
-    /// Appends a node with its frame and boxes as they were; its link is one of the new tree.
+    /// Appends a node with its axes and boxes as they were; its link is one of the new tree.
     void copy(const Kept& kept) {
         to_.nodes.push_back(from_.nodes[kept.source]);
         to_.nodes.back().link = kept.link;
@@ -81,7 +81,7 @@ void TopLevel::within(const Beam& beam, TopLevel& part, uint64_t* looked_at) con
     part.key_count = key_count;
     part.oriented = oriented;
     part.nodes.clear();
-    part.frames = frames;
+    part.axes_sets = axes_sets;
     part.keeps_turned_rays = keeps_turned_rays;
     part.boxes.clear();
     if (nodes.empty()) return;
@@ -91,9 +91,9 @@ void TopLevel::within(const Beam& beam, TopLevel& part, uint64_t* looked_at) con
     *looked_at += pruning.looked_at;
 }
 
-inline const FrameRay& TopLevelView::turned(uint32_t frame, const TraceRay& ray) const {
-    Turned& held = turned_[frame % kKept];
-    if (held.frame != frame) held = {FrameRay(frames_[frame], ray), frame};
+inline const RayInAxes& TopLevelView::turned(uint32_t axes, const TraceRay& ray) const {
+    Turned& held = turned_[axes % kKept];
+    if (held.axes != axes) held = {RayInAxes(axes_sets_[axes], ray), axes};
     return held.ray;
 }
 
@@ -106,8 +106,8 @@ inline bool TopLevelView::meet(size_t index, const TraceRay& ray, Visit& visit) 
     const DepthInterval inside =
         !tree_.oriented ? clip(along_axes_, *from, *to, segment_.local, rounding)
         : tree_.keeps_turned_rays
-            ? clip(turned(node.frame, ray), *from, *to, segment_.local, rounding)
-            : clip(FrameRay(frames_[node.frame], ray), *from, *to, segment_.local, rounding);
+            ? clip(turned(node.axes, ray), *from, *to, segment_.local, rounding)
+            : clip(RayInAxes(axes_sets_[node.axes], ray), *from, *to, segment_.local, rounding);
     visit.node = node.link.value;
     return inside.meets(ray, node.quad_extent + rounding, visit.depth);
 }

@@ -23,29 +23,30 @@ struct TopLevel {
         float absolute_max = 0;  ///< largest coordinate of any grid below
         float quad_extent = 0;   ///< size of the largest micropolygon below
         TopLink link;
-        uint32_t frame = 0;  ///< which of `frames` its boxes are in
+        uint32_t axes = 0;  ///< which of `axes_sets` its boxes are in
     };
 
     int key_count = 1;
     bool oriented = true;
     std::vector<Node, LargePages<Node>>
         nodes;  ///< children of inner node i at 2 i and 2 i + 1; the root last; none without grids
-    /// A view keeps the rays that it has turned lately, for nodes that share a frame: a node has that of one
+    /// A view keeps the rays that it has turned lately, for nodes that share axes: a node has those of one
     /// of its children.
     bool keeps_turned_rays = false;
     /// That nodes have; null unless oriented. Shared by the parts of a tree.
-    std::shared_ptr<const std::vector<FrameColumns>> frames;
-    /// key_count boxes a node, in its frame.
+    std::shared_ptr<const std::vector<AxesColumns>> axes_sets;
+    /// key_count boxes a node, in its axes.
     UnsetVector<KeyBox> boxes;
 
     /// What a node's boxes are coordinates of.
-    const FrameColumns& frame_of(size_t node) const {
-        return oriented ? (*frames)[nodes[node].frame] : kAxes;
+    const AxesColumns& axes_of(size_t node) const {
+        return oriented ? (*axes_sets)[nodes[node].axes] : kAxes;
     }
     /// A node's boxes at keys 0 .. key_count - 1.
     const KeyBox* boxes_of(size_t node) const { return boxes.data() + node * key_count; }
     size_t bytes() const {
-        return nodes.capacity() * sizeof(Node) + (frames ? frames->capacity() * sizeof(FrameColumns) : 0) +
+        return nodes.capacity() * sizeof(Node) +
+               (axes_sets ? axes_sets->capacity() * sizeof(AxesColumns) : 0) +
                boxes.capacity() * sizeof(KeyBox);
     }
 
@@ -54,8 +55,8 @@ struct TopLevel {
     void within(const Beam& beam, TopLevel& part, uint64_t* looked_at) const;
 
   private:
-    /// The axes of space, the frame of all nodes of an axis-aligned tree.
-    inline static const FrameColumns kAxes{Frame{}};
+    /// The axes of space, those of all nodes of an axis-aligned tree.
+    inline static const AxesColumns kAxes{Axes{}};
 };
 
 /// A TopLevel prepared for one ray: its motion segment is found once, and, where all boxes are axis-aligned,
@@ -66,11 +67,11 @@ class TopLevelView {
 
     TopLevelView(const TopLevel& tree, const TraceRay& ray)
         : tree_(tree),
-          frames_(tree.frames ? tree.frames->data() : nullptr),
+          axes_sets_(tree.axes_sets ? tree.axes_sets->data() : nullptr),
           segment_(segment_at(ray.axis.time, tree.key_count)) {
-        if (!tree.oriented) along_axes_ = FrameRay(ray);
+        if (!tree.oriented) along_axes_ = RayInAxes(ray);
         if (tree.keeps_turned_rays)
-            for (Turned& held : turned_) held.frame = kNoFrame;
+            for (Turned& held : turned_) held.axes = kNoAxes;
     }
 
     /// The root, if the ray may hit something in it; nothing in an empty tree.
@@ -80,25 +81,25 @@ class TopLevelView {
     uint32_t leaf(uint32_t node) const { return TopLink{node}.index(); }
 
     /// The ray as all boxes of an axis-aligned tree see it; null of an oriented one.
-    const FrameRay* along_axes() const { return tree_.oriented ? nullptr : &along_axes_; }
+    const RayInAxes* along_axes() const { return tree_.oriented ? nullptr : &along_axes_; }
 
   private:
     bool meet(size_t index, const TraceRay& ray, Visit& visit) const;
-    const FrameRay& turned(uint32_t frame, const TraceRay& ray) const;
+    const RayInAxes& turned(uint32_t axes, const TraceRay& ray) const;
 
-    static constexpr uint32_t kNoFrame = ~uint32_t{0};
+    static constexpr uint32_t kNoAxes = ~uint32_t{0};
     static constexpr size_t kKept = 8;
-    /// The ray in a frame.
+    /// The ray in some axes.
     struct Turned {
-        FrameRay ray;
-        uint32_t frame;
+        RayInAxes ray;
+        uint32_t axes;
     };
 
     const TopLevel& tree_;
-    const FrameColumns* frames_;
+    const AxesColumns* axes_sets_;
     MotionSegment segment_;
-    FrameRay along_axes_;
-    mutable std::array<Turned, kKept> turned_;  ///< each frame has one place
+    RayInAxes along_axes_;
+    mutable std::array<Turned, kKept> turned_;  ///< each set of axes has one place
 };
 
 }  // namespace trapeze

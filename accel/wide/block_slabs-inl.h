@@ -1,5 +1,5 @@
 /// A block of 4 x 4 micropolygons between three pairs of parallel planes along its own sides. The boxes of a
-/// grid are in the frame of the whole grid: where it is curved or sheared, two rays in three that meet a
+/// grid are in the axes of the whole grid: where it is curved or sheared, two rays in three that meet a
 /// block's box pass the block by. These planes are found anew for every bundle that comes to a block, for
 /// they cost less than fetching them from memory would, and let through few rays that miss. Compiled once a
 /// target.

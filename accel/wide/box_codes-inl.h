@@ -40,17 +40,17 @@ HWY_INLINE auto decode_planes(hn::Vec<hn::FixedTag<float, 4>> low, hn::Vec<hn::F
 }
 #endif
 
-/// WideTree::read_frame() of a moving grid, in vectors.
-HWY_INLINE void read_moving_frame(const WideTree& tree, const WideGrid& grid, int segment,
-                                  SegmentFrame& frame) {
+/// WideTree::read_segment() of a moving grid, in vectors.
+HWY_INLINE void read_moving_segment(const WideTree& tree, const WideGrid& grid, int segment,
+                                    OrientedSegment& oriented) {
 #if HWY_TARGET == HWY_SCALAR
-    tree.read_frame(grid, segment, frame);
+    tree.read_segment(grid, segment, oriented);
 #else
     const hn::FixedTag<float, 4> d;
     const hn::FixedTag<int16_t, 4> d16;
     const hn::FixedTag<int32_t, 4> d32;
     const int16_t* axes = grid.axes.code[0];
-    float* to = frame.axes.axis[0];
+    float* to = oriented.axes.axis[0];
     const auto one = hn::Set(d, 1 / PackedAxes::kOne);
     for (size_t i = 0; i < 8; i += 4)
         hn::StoreU(hn::Mul(hn::ConvertTo(d, hn::PromoteTo(d32, hn::LoadU(d16, axes + i))), one), d, to + i);
@@ -67,25 +67,25 @@ HWY_INLINE void read_moving_frame(const WideTree& tree, const WideGrid& grid, in
     const auto low0 = decode_planes(low, step, begin), low1 = decode_planes(low, step, end);
     const auto high0 = decode_planes(low, step, begin + 3), high1 = decode_planes(low, step, end + 3);
     // Each store of four is overwritten past its third by the next.
-    hn::StoreU(low0, d, frame.at[0].low), hn::StoreU(high0, d, frame.at[0].high);
-    hn::StoreU(low1, d, frame.at[1].low), hn::StoreU(high1, d, frame.at[1].high);
-    hn::StoreU(low0, d, frame.box.low), hn::StoreU(high0, d, frame.box.high);
-    hn::StoreU(hn::Sub(low1, low0), d, frame.box.low_delta),
-        hn::StoreU(hn::Sub(high1, high0), d, frame.box.high_delta);
+    hn::StoreU(low0, d, oriented.at[0].low), hn::StoreU(high0, d, oriented.at[0].high);
+    hn::StoreU(low1, d, oriented.at[1].low), hn::StoreU(high1, d, oriented.at[1].high);
+    hn::StoreU(low0, d, oriented.box.low), hn::StoreU(high0, d, oriented.box.high);
+    hn::StoreU(hn::Sub(low1, low0), d, oriented.box.low_delta),
+        hn::StoreU(hn::Sub(high1, high0), d, oriented.box.high_delta);
 #endif
 }
 
-/// Decodes the boxes of a grid in a segment of its motion, of which the frame has been read: rows 0 to 5 at
+/// Decodes the boxes of a grid in a segment of its motion, which has been read: rows 0 to 5 at
 /// the segment's start and, if kMotion, rows 6 to 11 how far they move.
 template <bool kMotion>
 HWY_INLINE void decode_boxes(const WideTree& tree, const WideGrid& grid, int segment,
-                             const SegmentFrame& frame, BoxPlanes& out) {
+                             const OrientedSegment& oriented, BoxPlanes& out) {
     const hn::CappedTag<float, BoxPlanes::kMost> d;
     const auto boxes = static_cast<size_t>(grid.box_count());
     const GridKeys keys(grid, tree.keys_of(grid));
     for (int end = 0; end < (kMotion ? 2 : 1); ++end) {
         const uint8_t* codes = keys.box_codes(segment + end);
-        const KeyBounds& whole = frame.at[end];
+        const KeyBounds& whole = oriented.at[end];
         float* rows = out.row(6 * static_cast<size_t>(end));
         for (size_t k = 0; k < 3; ++k) {
             const CodeScale scale(whole.low[k], whole.high[k]);

@@ -1,4 +1,4 @@
-/// How a WideTree keeps the boxes of a grid's blocks: at each key of the grid's motion, in the grid's frame,
+/// How a WideTree keeps the boxes of a grid's blocks: at each key of the grid's motion, in the grid's axes,
 /// a byte for each plane of each box, in steps of 1 / 255 of the whole grid's box there; and that box itself
 /// in steps of 1 / 255 of the grid's box over all keys.
 #pragma once
@@ -10,7 +10,7 @@
 namespace trapeze {
 
 /// The boxes of a grid in one segment of its motion: plane k of box b is at row(k)[b] + t * row(6 + k)[b],
-/// where k is low x, y, z, high x, y, z in the grid's frame, and t the time in the segment.
+/// where k is low x, y, z, high x, y, z in the grid's axes, and t the time in the segment.
 struct BoxPlanes {
     static constexpr size_t kMost = 16;  ///< boxes
     alignas(64) float values[12 * kMost];
@@ -20,7 +20,7 @@ struct BoxPlanes {
     const float* row(size_t k) const { return values + k * kMost; }
 };
 
-/// A grid's box at one of its keys, in its frame or in camera space.
+/// A grid's box at one of its keys, in its axes or in camera space.
 struct KeyBounds {
     float low[3], high[3];
 };
@@ -37,7 +37,7 @@ struct CodeScale {
 
 /// What may come between two ways to compute CodeScale::plane(), fused and not, as part of the largest
 /// coordinate: two roundings of 2^-24, of numbers up to 3.5 and 1.8 times as large (a grid's box in its
-/// frame).
+/// axes).
 inline constexpr float kCodeRounding = 0x1p-21f;
 
 /// The code of the last plane not above `at`, and that of the first not below, among the 256 of a scale. `at`

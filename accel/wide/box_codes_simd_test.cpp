@@ -1,6 +1,6 @@
-/// The SIMD forms that read a grid's frame and its boxes against their scalar meaning, on every target of the
-/// machine: planes to kCodeRounding, by which boxes are larger than what they hold, for some targets fuse a
-/// multiplication with an addition; all else to the bit.
+/// The SIMD forms that read a grid's segment and its boxes against their scalar meaning, on every target of
+/// the machine: planes to kCodeRounding, by which boxes are larger than what they hold, for some targets fuse
+/// a multiplication with an addition; all else to the bit.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,10 +21,10 @@ HWY_BEFORE_NAMESPACE();
 namespace trapeze {
 namespace HWY_NAMESPACE {
 
-void read_in_vectors(const WideTree& tree, const WideGrid& grid, int segment, SegmentFrame& frame,
+void read_in_vectors(const WideTree& tree, const WideGrid& grid, int segment, OrientedSegment& oriented,
                      BoxPlanes& boxes) {
-    read_moving_frame(tree, grid, segment, frame);
-    decode_boxes<true>(tree, grid, segment, frame, boxes);
+    read_moving_segment(tree, grid, segment, oriented);
+    decode_boxes<true>(tree, grid, segment, oriented, boxes);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -74,7 +74,7 @@ void expect_same_bounds(const KeyBounds& read, const KeyBounds& expected) {
     }
 }
 
-void expect_same_frame(const SegmentFrame& read, const SegmentFrame& expected) {
+void expect_same_segment(const OrientedSegment& read, const OrientedSegment& expected) {
     for (int axis = 0; axis < 3; ++axis)
         for (int k = 0; k < 3; ++k) EXPECT_EQ(read.axes.axis[axis][k], expected.axes.axis[axis][k]);
     for (int end = 0; end < 2; ++end) expect_same_bounds(read.at[end], expected.at[end]);
@@ -86,20 +86,20 @@ void expect_same_frame(const SegmentFrame& read, const SegmentFrame& expected) {
     }
 }
 
-/// Planes of all boxes equal what their codes say between the planes of `frame`.
+/// Planes of all boxes equal what their codes say between the planes of `oriented`.
 void expect_same_boxes(const BoxPlanes& read, const WideTree& tree, const WideGrid& grid, int segment,
-                       const SegmentFrame& frame) {
+                       const OrientedSegment& oriented) {
     const GridKeys keys(grid, tree.keys_of(grid));
     const auto boxes = static_cast<size_t>(grid.box_count());
     for (size_t k = 0; k < 6; ++k) {
         const size_t axis = k % 3;
         const auto plane = [&](int end, size_t b) {
-            const KeyBounds& whole = frame.at[end];
+            const KeyBounds& whole = oriented.at[end];
             return CodeScale(whole.low[axis], whole.high[axis])
                 .plane(keys.box_codes(segment + end)[k * boxes + b]);
         };
         const auto rounding = [&](int end) {
-            return rounding_between(frame.at[end].low[axis], frame.at[end].high[axis]);
+            return rounding_between(oriented.at[end].low[axis], oriented.at[end].high[axis]);
         };
         for (size_t b = 0; b < boxes; ++b) {
             EXPECT_NEAR(read.row(k)[b], plane(0, b), rounding(0)) << k << ' ' << b;
@@ -114,17 +114,17 @@ void compare(const WideTree& tree, size_t grids) {
         const WideGrid& grid = tree.grid(index);
         for (int segment = 0; segment + 1 < grid.key_count; ++segment) {
             SCOPED_TRACE(::testing::Message() << "grid " << index << " segment " << segment);
-            SegmentFrame read, expected;
+            OrientedSegment read, expected;
             BoxPlanes boxes;
             HWY_DYNAMIC_DISPATCH(read_in_vectors)(tree, grid, segment, read, boxes);
-            tree.read_frame(grid, segment, expected);
-            expect_same_frame(read, expected);
+            tree.read_segment(grid, segment, expected);
+            expect_same_segment(read, expected);
             expect_same_boxes(boxes, tree, grid, segment, read);
         }
     }
 }
 
-TEST(BoxCodesSimd, FramesAndBoxesEqualTheScalarFormOnEveryTarget) {
+TEST(BoxCodesSimd, SegmentsAndBoxesEqualTheScalarFormOnEveryTarget) {
     for (const int keys : {2, 3, 5}) {
         testing::GridMaker maker;
         add_moving(maker, 200, keys);

@@ -17,7 +17,7 @@ struct ActiveRays {
     size_t count = 0;
     /// The ray in camera space; `local`: its time within the grid's motion segment.
     alignas(64) float ox[kRoom], oy[kRoom], ux[kRoom], uy[kRoom], local[kRoom];
-    /// The ray in the grid's frame: 1 / direction, and origin / direction, along each axis.
+    /// The ray in the grid's axes: 1 / direction, and origin / direction, along each axis.
     alignas(64) float inverse[3][kRoom], offset[3][kRoom];
     alignas(64) float limit[kRoom];  ///< no box entered beyond this depth matters; negative past the end
     alignas(64) uint32_t ray[kRoom];
@@ -96,8 +96,8 @@ struct BundleScratch {
     std::vector<Link> stack;
     uint32_t touched[RayIntervals::kRoom];  ///< packets that have active rays
     size_t touched_count = 0;
-    MetPackets met_packets;  ///< of the grid that is visited
-    SegmentFrame frame;      ///< of it, in its segment, once a packet has come near
+    MetPackets met_packets;    ///< of the grid that is visited
+    OrientedSegment oriented;  ///< of it, in its segment, once a packet has come near
     BoxPlanes boxes;
     SlopeBounds slopes[16];     ///< of the grid's blocks, for sharp packets
     uint32_t slopes_known = 0;  ///< which of them are made, a bit a block

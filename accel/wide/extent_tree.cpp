@@ -22,7 +22,7 @@ hn::Vec<D> plane_at(D d, const float* at_open, const float* delta, bool moves, f
 }
 
 /// NaNs make no bound: comparisons that are false leave what there was.
-uint32_t children_met(const ExtentNode& node, bool moves, const FrameRay& frame_ray, const TraceRay& ray,
+uint32_t children_met(const ExtentNode& node, bool moves, const RayInAxes& ray_in_axes, const TraceRay& ray,
                       float* depths) {
     const hn::CappedTag<float, ExtentNode::kChildren> d;
     using V = hn::Vec<decltype(d)>;
@@ -33,8 +33,8 @@ uint32_t children_met(const ExtentNode& node, bool moves, const FrameRay& frame_
         V near = hn::Set(d, -std::numeric_limits<float>::infinity());
         V far = hn::Set(d, std::numeric_limits<float>::infinity());
         for (int k = 0; k < 3; ++k) {
-            const V inverse = hn::Set(d, frame_ray.inverse_direction[k]);
-            const V origin = hn::Set(d, frame_ray.origin[k]);
+            const V inverse = hn::Set(d, ray_in_axes.inverse_direction[k]);
+            const V origin = hn::Set(d, ray_in_axes.origin[k]);
             const float time = ray.axis.time;
             const V low = plane_at(d, node.low[k] + i, node.low_delta[k] + i, moves, time);
             const V high = plane_at(d, node.high[k] + i, node.high_delta[k] + i, moves, time);
@@ -85,9 +85,9 @@ bool moves(const ExtentNode& node) {
 
 }  // namespace
 
-uint32_t children_met(const ExtentNode& node, bool moves, const FrameRay& frame_ray, const TraceRay& ray,
+uint32_t children_met(const ExtentNode& node, bool moves, const RayInAxes& ray_in_axes, const TraceRay& ray,
                       float* depths) {
-    return HWY_DYNAMIC_DISPATCH(children_met)(node, moves, frame_ray, ray, depths);
+    return HWY_DYNAMIC_DISPATCH(children_met)(node, moves, ray_in_axes, ray, depths);
 }
 
 ExtentTree::ExtentTree(std::span<const GridExtent> extents) {

@@ -29,7 +29,7 @@ struct alignas(64) ExtentNode {
 
 /// Which children a ray may meet, a bit for each, and lower bounds of the depths of hits within them; `moves`
 /// false: deltas are 0. As clip() and DepthInterval::meets() for each.
-uint32_t children_met(const ExtentNode& node, bool moves, const FrameRay& frame_ray, const TraceRay& ray,
+uint32_t children_met(const ExtentNode& node, bool moves, const RayInAxes& ray_in_axes, const TraceRay& ray,
                       float* depths);
 
 /// Things are known by their numbers, 0 to size - 1. Immutable: threads share it.
@@ -45,7 +45,7 @@ class ExtentTree {
     template <class See>
     void visit(TraceRay& ray, const See& see) const {
         for (const uint32_t number : unbounded_) see(number, ray.t_min);
-        if (!nodes_.empty()) visit_node(0, FrameRay(ray), ray, see);
+        if (!nodes_.empty()) visit_node(0, RayInAxes(ray), ray, see);
     }
 
     size_t bytes() const {
@@ -61,12 +61,12 @@ class ExtentTree {
     /// Children are sorted by depth, for a thing that is seen may have to be made, beside which sorting is
     /// nothing. Each is compared with the range again when its turn comes.
     template <class See>
-    void visit_node(uint32_t number, const FrameRay& frame_ray, TraceRay& ray, const See& see) const {
+    void visit_node(uint32_t number, const RayInAxes& ray_in_axes, TraceRay& ray, const See& see) const {
         const ExtentNode& node = nodes_[number];
         alignas(64) float depths[ExtentNode::kChildren];
         std::array<Met, ExtentNode::kChildren> met;
         int count = 0;
-        for (uint32_t bits = children_met(node, moves_, frame_ray, ray, depths); bits != 0;
+        for (uint32_t bits = children_met(node, moves_, ray_in_axes, ray, depths); bits != 0;
              bits &= bits - 1) {
             const int i = std::countr_zero(bits);
             met[count++] = {depths[i], node.link[i]};
@@ -77,7 +77,7 @@ class ExtentTree {
             if (met[i].link & kGridLink)
                 see(met[i].link & ~kGridLink, met[i].depth);
             else
-                visit_node(met[i].link, frame_ray, ray, see);
+                visit_node(met[i].link, ray_in_axes, ray, see);
         }
     }
 

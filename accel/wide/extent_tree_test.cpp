@@ -123,18 +123,18 @@ TEST(ExtentTree, ChildrenAreMetAsOneByOne) {
         const TraceRay ray = TraceRay::turned(
             axis_ray({origin, direction, number(0, 1)}),
             {min, round % 4 == 0 ? std::numeric_limits<float>::infinity() : min + number(0, 15)});
-        const FrameRay frame_ray(ray);
+        const RayInAxes ray_in_axes(ray);
         std::array<float, ExtentNode::kChildren> depth;
         std::array<bool, ExtentNode::kChildren> expected;
         for (size_t i = 0; i < node.count; ++i) {
             const float pad = ray.rounding(node.coordinate[i]);
-            expected[i] = clip(frame_ray, from[i], to[i], ray.axis.time, pad)
+            expected[i] = clip(ray_in_axes, from[i], to[i], ray.axis.time, pad)
                               .meets(ray, node.extent[i] + pad, depth[i]);
             ++(expected[i] ? met : missed);
         }
         for_each_target([&] {
             alignas(64) float depths[ExtentNode::kChildren];
-            const uint32_t found = children_met(node, moves, frame_ray, ray, depths);
+            const uint32_t found = children_met(node, moves, ray_in_axes, ray, depths);
             ASSERT_EQ(found >> node.count, 0u);
             for (size_t i = 0; i < node.count; ++i) {
                 ASSERT_EQ((found >> i & 1) != 0, expected[i]) << round;

@@ -177,7 +177,7 @@ uint32_t meet_boxes_each(BundleState& t, const float* planes, int boxes) {
 /// for each ray. Gives a bit for each box that any ray meets.
 template <bool kMotion, bool kLens>
 uint32_t meet_boxes(BundleState& t, const WideGrid& grid, int segment, int boxes) {
-    decode_boxes<kMotion>(t.tree, grid, segment, t.scratch.frame, t.scratch.boxes);
+    decode_boxes<kMotion>(t.tree, grid, segment, t.scratch.oriented, t.scratch.boxes);
     const float* planes = t.scratch.boxes.values;
     const size_t count = t.scratch.active.count;
     t.stats.nodes_visited += count * static_cast<size_t>(boxes);

@@ -118,7 +118,7 @@ HWY_INLINE size_t keep_aligned(BundleState& t, const WideGrid& grid, const Movin
 }
 
 /// Adds those rays of a packet to the active ones that meet the grid's oriented box; `lanes` meet the other.
-/// Keeps what the rays are in the grid's frame, for its boxes are in that frame, too.
+/// Keeps what the rays are in the grid's axes, for its boxes are along those, too.
 template <bool kMotion, bool kLens>
 HWY_INLINE void collect_packet(BundleState& t, const WideGrid& grid, uint32_t packet, uint32_t lanes,
                                int segment, float depth) {
@@ -126,18 +126,18 @@ HWY_INLINE void collect_packet(BundleState& t, const WideGrid& grid, uint32_t pa
     RayLanes r;
     rays_in_segment<kMotion, kLens>(t, grid, segment, packet, r);
     const VF limit = limit_of(t, grid, packet);
-    const SegmentFrame& frame = t.scratch.frame;
-    const MovingBox& framed = frame.box;
+    const OrientedSegment& oriented = t.scratch.oriented;
+    const MovingBox& box = oriented.box;
     VF inverse[3], offset[3], near = hn::Set(d, depth), far = limit;
     for (int k = 0; k < 3; ++k) {
-        const float* axis = frame.axes.axis[k];
+        const float* axis = oriented.axes.axis[k];
         const VF x = hn::Set(d, axis[0]), y = hn::Set(d, axis[1]);
         inverse[k] = reciprocal(hn::MulAdd(x, r.ux, hn::MulAdd(y, r.uy, hn::Set(d, axis[2]))));
         offset[k] = kLens ? hn::Mul(hn::MulAdd(x, r.ox, hn::Mul(y, r.oy)), inverse[k]) : hn::Zero(d);
-        VF low = hn::Set(d, framed.low[k]), high = hn::Set(d, framed.high[k]);
+        VF low = hn::Set(d, box.low[k]), high = hn::Set(d, box.high[k]);
         if constexpr (kMotion) {
-            low = hn::MulAdd(r.local, hn::Set(d, framed.low_delta[k]), low);
-            high = hn::MulAdd(r.local, hn::Set(d, framed.high_delta[k]), high);
+            low = hn::MulAdd(r.local, hn::Set(d, box.low_delta[k]), low);
+            high = hn::MulAdd(r.local, hn::Set(d, box.high_delta[k]), high);
         }
         const VF a = hn::MulSub(low, inverse[k], offset[k]), b = hn::MulSub(high, inverse[k], offset[k]);
         near = hn::Max(near, hn::Min(a, b)), far = hn::Min(far, hn::Max(a, b));
@@ -201,9 +201,9 @@ void collect_active(BundleState& t, const MovingBox& box, const WideGrid& grid, 
     count = keep_aligned<kMotion, kLens>(t, grid, box, segment, count);
     if (count == 0) return;
     if constexpr (kMotion)
-        read_moving_frame(t.tree, grid, segment, t.scratch.frame);
+        read_moving_segment(t.tree, grid, segment, t.scratch.oriented);
     else
-        t.tree.read_frame(grid, segment, t.scratch.frame);
+        t.tree.read_segment(grid, segment, t.scratch.oriented);
     prefetch_boxes<kMotion>(t, grid, segment);
     for (size_t n = 0; n < count; ++n)
         collect_packet<kMotion, kLens>(t, grid, packets.packet[n], packets.lanes[n], segment,

@@ -89,14 +89,14 @@ HWY_INLINE uint32_t micropolygons_met(const SlopeBounds& bounds, const PacketSlo
     return all;
 }
 
-/// A vector of packets along the axes of a grid's frame, one packet a lane of each row: one over what the
+/// A vector of packets along the axes of a grid, one packet a lane of each row: one over what the
 /// middle ray goes along axis k a unit of depth, and how far others are from it at most anywhere in the
 /// grid's range of depths.
-struct PacketsInFrame {
+struct PacketsInAxes {
     HWY_ALIGN float inverse[3][kLanes], spread[3][kLanes];
 
     /// `reach`: the largest |depth| of the grid.
-    HWY_INLINE PacketsInFrame(const IntervalLanes& q, const FrameAxes& axes, float reach) {
+    HWY_INLINE PacketsInAxes(const IntervalLanes& q, const GridAxes& axes, float reach) {
         const F32 d;
         // A little more than half, for the middle is rounded.
         const VF half = hn::Set(d, 0.5f), more = hn::Set(d, 0.50001f), rounding = hn::Set(d, 0x1p-22f);
@@ -119,7 +119,7 @@ struct PacketsInFrame {
 
 /// The boxes of a grid (at most 16, one a lane) that some ray of a packet may meet between the depths z_low
 /// and z_high, as bits: the middle ray against boxes grown by how far others are from it.
-HWY_INLINE uint32_t boxes_met(const WideGrid& grid, const float* planes, const PacketsInFrame& packets,
+HWY_INLINE uint32_t boxes_met(const WideGrid& grid, const float* planes, const PacketsInAxes& packets,
                               size_t lane, float z_low, float z_high) {
     const F32 d;
     const auto boxes = static_cast<size_t>(grid.box_count());
@@ -242,7 +242,7 @@ inline void visit_sharp(BundleState& t, const Candidate& candidate, const WideGr
     const MovingBox box = t.tree.grid_box(grid);
     const float z_low = std::max(box.low[2], t.nearest_depth), z_high = box.high[2],
                 reach = std::max(std::abs(z_low), std::abs(z_high));
-    SegmentFrame& frame = t.scratch.frame;
+    OrientedSegment& oriented = t.scratch.oriented;
     VF low[3], high[3];
     for (int k = 0; k < 3; ++k) low[k] = hn::Set(d, box.low[k]), high[k] = hn::Set(d, box.high[k]);
     bool nearer = false, decoded = false;
@@ -254,12 +254,12 @@ inline void visit_sharp(BundleState& t, const Candidate& candidate, const WideGr
             looks, meets<false>(d, q, low, high, hn::Set(d, t.nearest_depth), hn::Set(d, t.inverse_focal))));
         if (met == 0) return;
         if (!decoded) {
-            t.tree.read_frame(grid, 0, frame);
-            decode_boxes<false>(t.tree, grid, 0, frame, t.scratch.boxes);
+            t.tree.read_segment(grid, 0, oriented);
+            decode_boxes<false>(t.tree, grid, 0, oriented, t.scratch.boxes);
             t.scratch.slopes_known = 0;
             decoded = true;
         }
-        const PacketsInFrame packets(q, frame.axes, reach);
+        const PacketsInAxes packets(q, oriented.axes, reach);
         for (; met != 0; met &= met - 1) {
             const auto lane = static_cast<size_t>(std::countr_zero(met));
             const size_t packet = p + lane, rays = std::min(kLanes, t.rays.count - packet * kLanes);

@@ -24,23 +24,23 @@ inline MovingBox between(const KeyBounds& from, const KeyBounds& to) {
     return box;
 }
 
-/// The axes of a grid's frame: unit vectors at right angles but for kLoss.
-struct FrameAxes {
+/// The axes of a grid: unit vectors at right angles but for kLoss.
+struct GridAxes {
     float axis[3][3];
 
-    /// What two ways to write a vector of the frame's differ by, of the sum of its coordinates there: twice
+    /// What two ways to write a vector in the axes differ by, of the sum of its coordinates there: twice
     /// what PackedAxes round away, by three axes.
     static constexpr float kLoss = 2e-4f;
 };
 /// The same axes in 16 bits a component, in steps of 1 / kOne. Bounds are made with the axes as unpacked, so
-/// that what packing rounds away loosens no bound; it makes the frame a little less than orthogonal.
+/// that what packing rounds away loosens no bound; it makes the axes a little less than orthogonal.
 struct PackedAxes {
     /// The code of a component of 1.
     static constexpr float kOne = 32767;
     int16_t code[3][3];
 
-    FrameAxes unpacked() const {
-        FrameAxes axes;
+    GridAxes unpacked() const {
+        GridAxes axes;
         for (int k = 0; k < 3; ++k)
             for (int c = 0; c < 3; ++c) axes.axis[k][c] = static_cast<float>(code[k][c]) * (1 / kOne);
         return axes;
@@ -49,16 +49,16 @@ struct PackedAxes {
 
 /// The record of a grid. What it has at its keys lies apart, in bytes:
 ///
-///   the grid's bounds in its frame, over all keys; where it has segments, those in camera space besides;
+///   the grid's bounds in its axes, over all keys; where it has segments, those in camera space besides;
 ///   for each key, where it moves, the same as codes between those, low x, y, z, high x, y, z;
-///   for each key the codes of all its boxes, between its bounds in the frame at that key: low x of all
+///   for each key the codes of all its boxes, between its bounds in the axes at that key: low x of all
 ///   boxes, low y, low z, high x, high y, high z.
 struct WideGrid {
     const float* planes;  ///< Grid::positions
     uint32_t first_pair;  ///< of bytes, of its keys
     uint32_t leaf;        ///< where the top level has its box: node * WideNode::kChildren + child
     /// bfloat16, rounded up: the largest extent of a micropolygon along each axis of space, and the largest
-    /// |coordinate| of vertices in space and in the frame; infinite where a grid has no bounds.
+    /// |coordinate| of vertices in space and in the axes; infinite where a grid has no bounds.
     uint16_t extent[3], coordinate;
     PackedAxes axes;
     uint8_t nu, nv;
@@ -104,8 +104,8 @@ class GridKeys {
 
     /// Rows of codes of its boxes.
     const uint8_t* box_codes(int key) const { return of_key(key) + grid_.bounds_bytes(); }
-    /// The grid's bounds at a key in its frame: what box_codes() are between.
-    KeyBounds framed(int key) const { return grid_.moves() ? decoded(0, of_key(key)) : header(0); }
+    /// The grid's bounds at a key in its axes: what box_codes() are between.
+    KeyBounds oriented(int key) const { return grid_.moves() ? decoded(0, of_key(key)) : header(0); }
     /// The grid's bounds at a key in camera space; only of a grid that has_segments().
     KeyBounds aligned(int key) const { return decoded(1, of_key(key) + 6); }
 
@@ -115,7 +115,7 @@ class GridKeys {
     }
 
   private:
-    /// Bounds over all keys: 0 in the frame, 1 in camera space.
+    /// Bounds over all keys: 0 in the axes, 1 in camera space.
     KeyBounds header(size_t which) const {
         KeyBounds bounds;
         std::memcpy(&bounds, bytes_ + which * sizeof(bounds), sizeof(bounds));
@@ -130,9 +130,9 @@ class GridKeys {
     const uint8_t* bytes_;
 };
 
-/// A whole grid in its frame in one segment of its motion; times are local to it.
-struct SegmentFrame {
-    FrameAxes axes;
+/// A whole grid in its axes in one segment of its motion; times are local to it.
+struct OrientedSegment {
+    GridAxes axes;
     KeyBounds at[2];   ///< the segment's begin and its end
     MovingBox box;     ///< between them
     float beyond = 0;  ///< vectors of four are stored

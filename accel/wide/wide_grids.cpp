@@ -19,12 +19,12 @@ namespace trapeze::wide_grids_detail {
 inline constexpr int kMaxTiles = 25;  ///< of a grid of 16 x 16
 inline constexpr int kMaxBlocks = 16;
 
-/// The boxes of a grid's blocks at one key, in the grid's frame.
+/// The boxes of a grid's blocks at one key, in the grid's axes.
 struct BlockBoxes {
     float low[3][kMaxBlocks], high[3][kMaxBlocks];
 };
 
-/// What a key adds to the whole grid's bounds: coordinates of camera space, then of the frame.
+/// What a key adds to the whole grid's bounds: coordinates of camera space, then of the axes.
 struct KeyBox6 {
     float low[6], high[6];
 };
@@ -38,12 +38,12 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace wide_grids_detail;
 
-/// Coordinates of all vertices, tile by tile, at a key: of camera space, then in the frame.
+/// Coordinates of all vertices, tile by tile, at a key: of camera space, then in the axes.
 struct TiledCoordinates {
     HWY_ALIGN float c[6][kMaxTiles * 16];
 };
 
-/// Writes a key's vertices in camera space and in the frame of `axis`, and what they span. Whole planes are
+/// Writes a key's vertices in camera space and in the axes of `axis`, and what they span. Whole planes are
 /// read: places past the last row and column repeat vertices (core/grid.h), which changes no bound.
 HWY_INLINE void place_vertices(const Grid& grid, int key, const float (*axis)[3], TiledCoordinates& out,
                                KeyBox6& box) {
@@ -76,7 +76,7 @@ HWY_INLINE void place_vertices(const Grid& grid, int key, const float (*axis)[3]
     }
 }
 
-/// Bounds of all blocks of 4 x 4 micropolygons, in the frame, not grown: of their tile's vertices and the
+/// Bounds of all blocks of 4 x 4 micropolygons, in the axes, not grown: of their tile's vertices and the
 /// first row and column of the tiles behind.
 HWY_INLINE void bound_blocks(const GridShape& shape, const TiledCoordinates& at, BlockBoxes& boxes) {
     const hn::CappedTag<float, 4> d4;
@@ -174,9 +174,9 @@ using wide_grids_detail::KeyBox6;
 
 HWY_EXPORT(bound_keys);
 
-/// The frame of a grid, from sums of edges along u and v at mid-shutter, to which interior vertices do not
+/// The axes of a grid, from sums of edges along u and v at mid-shutter, to which interior vertices do not
 /// contribute [Hou10 sec. 3.3]; every fourth row and column tells enough.
-Frame frame_of_grid(const Grid& grid) {
+Axes axes_of_grid(const Grid& grid) {
     const GridShape& shape = grid.shape;
     V3f along_u(0), along_v(0);
     int rows = 0, columns = 0;
@@ -184,18 +184,18 @@ Frame frame_of_grid(const Grid& grid) {
         along_u += grid.vertex(shape.nu, j, 0.5f) - grid.vertex(0, j, 0.5f);
     for (int i = 0; i <= shape.nu; i += 4, ++columns)
         along_v += grid.vertex(i, shape.nv, 0.5f) - grid.vertex(i, 0, 0.5f);
-    return frame_of(V3d(along_u) / (rows * shape.nu), V3d(along_v) / (columns * shape.nv));
+    return axes_of(V3d(along_u) / (rows * shape.nu), V3d(along_v) / (columns * shape.nv));
 }
 
 /// Axes in 16 bits a component; those of space where some are no numbers.
-PackedAxes packed(Frame frame) {
+PackedAxes packed(Axes exact) {
     for (int k = 0; k < 3; ++k)
-        if (!std::isfinite(frame.axis[k].x + frame.axis[k].y + frame.axis[k].z)) frame = {};
+        if (!std::isfinite(exact.axis[k].x + exact.axis[k].y + exact.axis[k].z)) exact = {};
     PackedAxes axes;
     for (int k = 0; k < 3; ++k)
         for (int c = 0; c < 3; ++c)
             axes.code[k][c] = static_cast<int16_t>(
-                std::lround(std::clamp(frame.axis[k][c], -1.0f, 1.0f) * PackedAxes::kOne));
+                std::lround(std::clamp(exact.axis[k][c], -1.0f, 1.0f) * PackedAxes::kOne));
     return axes;
 }
 
@@ -240,7 +240,7 @@ void write_codes(const WideGrid& record, const KeyBounds& whole, const BlockBoxe
     }
 }
 
-/// Bounds over some keys, grown: in camera space (`first` 0) or in the frame (3).
+/// Bounds over some keys, grown: in camera space (`first` 0) or in the axes (3).
 KeyBounds bounds_of_all(const KeyBox6* wholes, int key_count, int first, float grow) {
     KeyBounds all;
     for (int k = 0; k < 3; ++k) {
@@ -260,16 +260,17 @@ void write_keys(const WideGrid& record, const KeyBox6* wholes, const BlockBoxes*
                 float more, uint8_t* out) {
     const int keys = record.key_count;
     const float whole_grow = grow + more, all_grow = record.moves() ? whole_grow + more : whole_grow;
-    const KeyBounds framed = bounds_of_all(wholes, keys, 3, all_grow),
+    const KeyBounds oriented = bounds_of_all(wholes, keys, 3, all_grow),
                     aligned = bounds_of_all(wholes, keys, 0, all_grow);
-    std::memcpy(out, &framed, sizeof(framed));
-    if (record.has_segments()) std::memcpy(out + sizeof(framed), &aligned, sizeof(aligned));
+    std::memcpy(out, &oriented, sizeof(oriented));
+    if (record.has_segments()) std::memcpy(out + sizeof(oriented), &aligned, sizeof(aligned));
     uint8_t* at = out + record.header_bytes();
     for (int key = 0; key < keys; ++key, at += record.key_bytes()) {
-        if (record.moves()) KeyBoundsScale(framed).write(bounds_of_all(wholes + key, 1, 3, whole_grow), at);
+        if (record.moves()) KeyBoundsScale(oriented).write(bounds_of_all(wholes + key, 1, 3, whole_grow), at);
         if (record.has_segments())
             KeyBoundsScale(aligned).write(bounds_of_all(wholes + key, 1, 0, whole_grow), at + 6);
-        write_codes(record, GridKeys(record, out).framed(key), boxes[key], grow, at + record.bounds_bytes());
+        write_codes(record, GridKeys(record, out).oriented(key), boxes[key], grow,
+                    at + record.bounds_bytes());
     }
 }
 
@@ -277,8 +278,8 @@ void write_keys(const WideGrid& record, const KeyBox6* wholes, const BlockBoxes*
 
 void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, uint8_t* keys,
                 GridExtent& extent) {
-    record.axes = packed(frame_of_grid(grid));
-    const FrameAxes axes = record.axes.unpacked();
+    record.axes = packed(axes_of_grid(grid));
+    const GridAxes axes = record.axes.unpacked();
     record.planes = grid.positions;
     record.nu = grid.shape.nu, record.nv = grid.shape.nv;
     record.key_count = grid.key_count;

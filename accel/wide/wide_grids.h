@@ -1,4 +1,4 @@
-/// The first pass of a WideTree's build: every grid's frame and boxes.
+/// The first pass of a WideTree's build: every grid's axes and boxes.
 #pragma once
 
 #include "accel/wide/wide_tree.h"

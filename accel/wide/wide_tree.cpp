@@ -80,7 +80,7 @@ void WideTree::decode(const WideGrid& grid, int segment, BoxPlanes& boxes) const
     const GridKeys keys(grid, keys_of(grid));
     for (int end = 0; end < (grid.moves() ? 2 : 1); ++end) {
         const uint8_t* codes = keys.box_codes(segment + end);
-        const KeyBounds whole = keys.framed(segment + end);
+        const KeyBounds whole = keys.oriented(segment + end);
         for (int k = 0; k < 6; ++k) {
             const CodeScale scale(whole.low[k % 3], whole.high[k % 3]);
             const float* first = boxes.row(static_cast<size_t>(k));

@@ -2,7 +2,7 @@
 ///
 ///   top level     16-wide nodes of axis-aligned hyper-trapezoids, whose leaves are grids;
 ///   in a grid     one implicit level: blocks of 4 x 4 micropolygons, the tiles in which vertices are stored,
-///                 each with an oriented hyper-trapezoid in the grid's own frame [Hou10 sec. 3.2 and 3.3],
+///                 each with an oriented hyper-trapezoid in the grid's own axes [Hou10 sec. 3.2 and 3.3],
 ///                 kept in a byte a plane.
 ///
 /// How a grid is kept is in accel/wide/wide_grid.h.
@@ -192,13 +192,13 @@ class WideTree final : public RayQuery {
         const GridKeys keys(grid, keys_of(grid));
         return between(keys.aligned(segment), keys.aligned(segment + 1));
     }
-    /// A grid's frame and its box there in a segment; of a still grid the same at both ends.
-    void read_frame(const WideGrid& grid, int segment, SegmentFrame& frame) const {
+    /// A grid's axes and its box along them in a segment; of a still grid the same at both ends.
+    void read_segment(const WideGrid& grid, int segment, OrientedSegment& oriented) const {
         const GridKeys keys(grid, keys_of(grid));
-        frame.axes = grid.axes.unpacked();
-        frame.at[0] = keys.framed(segment);
-        frame.at[1] = grid.moves() ? keys.framed(segment + 1) : frame.at[0];
-        frame.box = between(frame.at[0], frame.at[1]);
+        oriented.axes = grid.axes.unpacked();
+        oriented.at[0] = keys.oriented(segment);
+        oriented.at[1] = grid.moves() ? keys.oriented(segment + 1) : oriented.at[0];
+        oriented.box = between(oriented.at[0], oriented.at[1]);
     }
     /// Grids too far out for bounds: every ray must look at them.
     const std::vector<uint32_t>& unbounded_grids() const { return unbounded_; }

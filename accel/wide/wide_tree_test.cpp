@@ -88,7 +88,7 @@ TEST(WideTree, BoxesHoldTheirVerticesAtAnyTime) {
             const Grid& grid = maker.grids().grids[g];
             const WideGrid& record = tree.grid(g);
             const MovingBox whole = tree.grid_box(record);
-            const FrameAxes axes = record.axes.unpacked();
+            const GridAxes axes = record.axes.unpacked();
             const float time = noise(0, 1);
             const MotionSegment segment = segment_at(time, grid.key_count);
             BoxPlanes boxes;

@@ -147,10 +147,6 @@ float sane_width(float width) {
 
 }  // namespace
 
-bool is_known_filter(std::string_view name) {
-    return find_filter(name) != nullptr;
-}
-
 double filter_value(std::string_view name, double x, double y, double width_x, double width_y) {
     const FilterRow* found = find_filter(name);
     const FilterRow& row = found ? *found : kFilters[0];

@@ -19,9 +19,6 @@ namespace trapeze {
 /// The filter's value, straight from its formula, without its support. Unknown names give the gaussian's.
 double filter_value(std::string_view name, double x, double y, double width_x, double width_y);
 
-/// Whether the table has a filter of this name.
-bool is_known_filter(std::string_view name);
-
 /// Where a sample's taps are: the first of the pixels that it reaches. Weights on these follow row by row,
 /// taps_y() rows of taps_x().
 struct FilterTaps {

@@ -197,37 +197,37 @@ class HitLanes {
 
 /// Hits in a row of one micropolygon: places `begin` to `end`. A sample mostly sees what the one before it
 /// sees.
-struct Run {
+struct HitRow {
     size_t begin, end;
     MicropolygonId id;
 };
 
-Run run_from(std::span<const Hit> hits, size_t begin) {
+HitRow row_from(std::span<const Hit> hits, size_t begin) {
     size_t end = begin + 1;
     while (end < hits.size() && hits[end].id == hits[begin].id) ++end;
     return {begin, end, MicropolygonId::unpack(hits[begin].id)};
 }
 
-void put_constant(const Run& run, const Grid& grid, float* const* planes) {
-    const V3f color = grid.color(run.id.u, run.id.v), opacity = grid.opacity(run.id.u, run.id.v);
+void put_constant(const HitRow& row, const Grid& grid, float* const* planes) {
+    const V3f color = grid.color(row.id.u, row.id.v), opacity = grid.opacity(row.id.u, row.id.v);
     for (int c = 0; c < 3; ++c) {
-        std::fill(planes[c] + run.begin, planes[c] + run.end, color[c]);
-        std::fill(planes[3 + c] + run.begin, planes[3 + c] + run.end, opacity[c]);
+        std::fill(planes[c] + row.begin, planes[c] + row.end, color[c]);
+        std::fill(planes[3 + c] + row.begin, planes[3 + c] + row.end, opacity[c]);
     }
 }
 
-HWY_INLINE void add_smooth(const Run& run, const Grid& grid, const HitsToInterpolate& task,
+HWY_INLINE void add_smooth(const HitRow& row, const Grid& grid, const HitsToInterpolate& task,
                            CornerCache& cache, HitLanes& lanes) {
     const MicropolygonCorners* corners = nullptr;  // of a segment
     int of_segment = -1;
-    for (size_t place = run.begin; place < run.end; ++place) {
+    for (size_t place = row.begin; place < row.end; ++place) {
         const AxisRay& ray = task.rays[task.ray_of[place]];
         const MotionSegment segment = segment_at(ray.time, grid.key_count);
         if (!corners || segment.index != of_segment) {
             of_segment = segment.index;
-            corners = cache.find(run.id.packed() | static_cast<uint64_t>(segment.index) << 40,
+            corners = cache.find(row.id.packed() | static_cast<uint64_t>(segment.index) << 40,
                                  [&](MicropolygonCorners& to)
-                                     HWY_ATTR { fill_corners(grid, run.id, segment.index, to); });
+                                     HWY_ATTR { fill_corners(grid, row.id, segment.index, to); });
         }
         lanes.add(corners, grid, ray, segment.local, place);
         if (!lanes.is_full()) continue;
@@ -240,19 +240,19 @@ HitKinds interpolate_hits_in_lanes(const HitsToInterpolate& task, CornerCache& c
     HitLanes lanes(cache, task.planes);
     HitKinds kinds;
     for (size_t place = 0; place < task.hits.size();) {
-        const Run run = run_from(task.hits, place);
-        place = run.end;
-        if (run.id.grid >= task.grids.grids.size()) {
+        const HitRow row = row_from(task.hits, place);
+        place = row.end;
+        if (row.id.grid >= task.grids.grids.size()) {
             kinds = {false, false};
             continue;
         }
-        const Grid& grid = task.grids.grids[run.id.grid];
+        const Grid& grid = task.grids.grids[row.id.grid];
         kinds.all_cover &= grid.opaque && !grid.matte;
         kinds.all_plain &= !grid.matte;
         if (grid.smooth)
-            add_smooth(run, grid, task, cache, lanes);
+            add_smooth(row, grid, task, cache, lanes);
         else
-            put_constant(run, grid, task.planes);
+            put_constant(row, grid, task.planes);
     }
     lanes.interpolate();
     return kinds;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/axis_frame.h"
+#include "core/axes_around.h"
 #include "core/half.h"
 #include "core/motion_keys.h"
 #include "core/scene/depth_filter.h"
@@ -74,9 +74,9 @@ bool all_opaque(const Triples& opacity, size_t count) {
 /// The rays about one that has met something after `way`, told from it and the two beside it.
 class RaysBeside {
   public:
-    RaysBeside(const RayFootprint& there, const V3f& way) : frame_(unit_or_zero(way)) {
+    RaysBeside(const RayFootprint& there, const V3f& way) : axes_(unit_or_zero(way)) {
         if (!there.is_known()) return;
-        const V2f a = frame_.across_of(there.origin[0]), b = frame_.across_of(there.origin[1]);
+        const V2f a = axes_.across_of(there.origin[0]), b = axes_.across_of(there.origin[1]);
         const float area = a.x * b.y - a.y * b.x;
         // Where they come together none can be told from another.
         if (!(std::abs(area) > kLeastSine * a.length() * b.length())) return;
@@ -86,7 +86,7 @@ class RaysBeside {
     }
     /// From the ray's beginning to that of the one which comes by at `aside` of where it is now.
     V3f origin_of(const V3f& aside) const {
-        const V2f at = frame_.across_of(aside);
+        const V2f at = axes_.across_of(aside);
         const V3f origin = begin_[0] * at.dot(a_) + begin_[1] * at.dot(b_);
         return origin.length2() < kInfinity ? origin : V3f(0, 0, 0);
     }
@@ -94,7 +94,7 @@ class RaysBeside {
   private:
     static constexpr float kLeastSine = 1e-3f;
 
-    AxisFrame<float> frame_;
+    AxesAround<float> axes_;
     V2f a_{0, 0}, b_{0, 0};  ///< how many steps to either ray beside a unit across it is
     std::array<V3f, 2> begin_{V3f(0, 0, 0), V3f(0, 0, 0)};
 };

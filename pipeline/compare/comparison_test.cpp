@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "pipeline/compare/compare_harness.h"
 #include "pipeline/compare/report/html_report.h"

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
+#include <nlohmann/json.hpp>
 
 #include <atomic>
 #include <fstream>

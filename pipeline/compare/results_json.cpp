@@ -1,5 +1,7 @@
 #include "pipeline/compare/results_json.h"
 
+#include <nlohmann/json.hpp>
+
 #include "pipeline/compare/record/figures_csv.h"
 #include "pipeline/compare/record/replay.h"
 

@@ -1,7 +1,7 @@
 /// Results as JSON values: seconds, counts and bytes, with the unit in the name.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "pipeline/compare/comparison.h"
 

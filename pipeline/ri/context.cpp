@@ -37,7 +37,7 @@ void Context::open(BlockKind block) {
 
 void Context::close(BlockKind block) {
     if (blocks_.empty()) throw CallError{RIE_NESTING, "no block is open"};
-    const OpenBlock& innermost = blocks_.back();
+    const BlockOfCalls& innermost = blocks_.back();
     if (innermost.kind != block)
         throw CallError{RIE_NESTING,
                         std::string("the innermost block is Ri") + name_of(innermost.kind) + "Begin"};
@@ -50,7 +50,7 @@ void Context::close(BlockKind block) {
 
 bool Context::is_open(BlockKind block) const {
     return std::any_of(blocks_.begin(), blocks_.end(),
-                       [&](const OpenBlock& open) { return open.kind == block; });
+                       [&](const BlockOfCalls& open) { return open.kind == block; });
 }
 
 void Context::expect_options() const {

@@ -54,7 +54,7 @@ class Context {
 
   private:
     /// What an open block brings back at its end.
-    struct OpenBlock {
+    struct BlockOfCalls {
         BlockKind kind;
         CountingState counting;
         M44d current;
@@ -63,7 +63,7 @@ class Context {
     };
 
     std::string name_;
-    std::vector<OpenBlock> blocks_;
+    std::vector<BlockOfCalls> blocks_;
     std::vector<Message> messages_;
 };
 

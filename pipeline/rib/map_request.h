@@ -10,6 +10,7 @@
 
 namespace trapeze {
 
+/// Names of files are as they stand in the scene; who makes the map looks for them.
 struct MapRequest {
     enum class Kind { Texture, Bump, LatLongEnvironment, CubeFaceEnvironment, Shadow };
 

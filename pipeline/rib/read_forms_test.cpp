@@ -1,5 +1,5 @@
 /// The freedom that RIB leaves in how values are written, and checks that only whole requests allow.
-#include "core/motion_keys.h"
+#include "core/motion_keys_harness.h"
 #include "pipeline/rib/reading_harness.h"
 
 namespace trapeze::testing {

@@ -55,7 +55,7 @@ Subtree greedy_tree(const std::vector<SahItem>& items, const SahTopology& topolo
 
 SahCosts sah_costs(const Grid& grid, int leaf_below) {
     std::vector<SahItem> items(static_cast<size_t>(grid.shape.micropolygon_count()));
-    boxes_of_grid(grid, summarise(grid).frame, 0.5f, 0, items.data());
+    boxes_of_grid(grid, summarise(grid).axes, 0.5f, 0, items.data());
     const double parametric = parametric_tree(items, grid.shape.nu, ParametricSplits(leaf_below),
                                               {0, 0, grid.shape.nu, grid.shape.nv})
                                   .relative();

@@ -54,7 +54,7 @@ TEST(SahCost, DoesNotDependOnWhereASheetIsTurnedAndIsTakenAtMidShutter) {
         return V3f(static_cast<float>(i), static_cast<float>(j),
                    std::sin(0.4f * static_cast<float>(i)) + 0.1f * static_cast<float>(j * j));
     };
-    const Frame turn = frame_of(V3d(1, 2, 0.5), V3d(-2, 1, 1));
+    const Axes turn = axes_of(V3d(1, 2, 0.5), V3d(-2, 1, 1));
     const SahCosts still =
         sah_costs(maker.add(16, 12, 1, [&](int i, int j, float) { return surface(i, j); }));
     const SahCosts turned = sah_costs(maker.add(16, 12, 2, [&](int i, int j, float t) {

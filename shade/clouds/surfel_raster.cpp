@@ -157,8 +157,8 @@ SkyPart::SkyPart(float angle, bool uniform) {
 }
 
 void SurfelRaster::start(const V3f& normal, const SkyPart& sky, bool clamp) {
-    const Cone frame(normal, 0);
-    across_ = frame.across(), along_ = frame.along(), normal_ = normal;
+    const Cone cone(normal, 0);
+    across_ = cone.across(), along_ = cone.along(), normal_ = normal;
     sky_ = &sky, clamp_ = clamp;
     front_.fill(0), back_.fill(0);
     hidden_ = 0, light_ = V3f(0);

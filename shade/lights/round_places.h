@@ -31,7 +31,7 @@ inline SurfacePlace place_on(const LightMesh::Ball& ball, const V3d& seen_from, 
     const V3d middle = wide(ball.middle), away = seen_from - middle;
     const double length = away.length(), height = 1 - 2 * x;
     const double sine = std::sqrt(std::max(0.0, 1 - height * height));
-    const V3d N = AxisFrame(length > 0 ? away / length : V3d(0, 0, 1)).around(sine, height, y);
+    const V3d N = AxesAround(length > 0 ? away / length : V3d(0, 0, 1)).around(sine, height, y);
     return {middle + N * static_cast<double>(ball.radius), N};
 }
 
@@ -42,8 +42,8 @@ inline SurfacePlace place_on(const LightMesh::Tube& tube, const V3d& seen_from, 
     // The area up to a part of the way grows with the square where the tube widens.
     const double at = x * (from + to) / (from + std::sqrt(from * from + (to * to - from * from) * x));
     const V3d away = seen_from - begin, across = away - axis * away.dot(axis);
-    const AxisFrame<double> frame(axis);
-    const V3d side = across.length2() > 0 ? across.normalized() : frame.across;
+    const AxesAround<double> axes(axis);
+    const V3d side = across.length2() > 0 ? across.normalized() : axes.across;
     const double angle = 2 * kPi64 * y, rise = to - from, length = whole.length();
     const V3d out = side * portable::cos(angle) + axis.cross(side) * portable::sin(angle);
     return {begin + whole * at + out * (from + rise * at), (out * length - axis * rise).normalized()};

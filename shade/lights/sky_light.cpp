@@ -14,7 +14,7 @@ namespace {
 class DistantLight final : public LightSampler {
   public:
     DistantLight(float angle, const V3d& along)
-        : frame_(-along), rim_(1 - portable::cos(std::clamp(static_cast<double>(angle), 0.0, kPi64 / 2))) {
+        : axes_(-along), rim_(1 - portable::cos(std::clamp(static_cast<double>(angle), 0.0, kPi64 / 2))) {
         // Differences of cosines lose the digits of small angles.
         const double sine = portable::sin(std::clamp(static_cast<double>(angle), 0.0, kPi64 / 2));
         if (sine < 0.5) rim_ = one_minus_cosine(sine * sine);
@@ -24,13 +24,13 @@ class DistantLight final : public LightSampler {
 
     LightSample sample(const V3f&, const V3f&, const V2f& square) const override {
         LightSample made;
-        made.N = narrow(-in_cone(frame_, rim_, square));
+        made.N = narrow(-in_cone(axes_, rim_, square));
         made.solid_angle = static_cast<float>(2 * kPi64 / (2 - rim_));
         return made;
     }
 
   private:
-    AxisFrame<double> frame_;
+    AxesAround<double> axes_;
     double rim_;  ///< one_minus_cosine() of the angle
 };
 
@@ -49,11 +49,11 @@ class WhiteDome final : public LightSampler {
         const double share = knows_normal ? kByCosine : 0;
         if (static_cast<double>(square.x) < share) {
             const double sine2 = static_cast<double>(square.x) / share;
-            way = AxisFrame(normal).around(std::sqrt(sine2), std::sqrt(1 - sine2),
-                                           static_cast<double>(square.y));
+            way = AxesAround(normal).around(std::sqrt(sine2), std::sqrt(1 - sine2),
+                                            static_cast<double>(square.y));
         } else {
             rest.x = static_cast<float>((static_cast<double>(square.x) - share) / (1 - share));
-            way = in_cone(AxisFrame(V3d(0, 0, 1)), 2, rest);
+            way = in_cone(AxesAround(V3d(0, 0, 1)), 2, rest);
         }
         const double density = share * std::max(0.0, normal.dot(way)) / kPi64 + (1 - share) / (4 * kPi64);
         LightSample made;

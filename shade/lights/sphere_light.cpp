@@ -28,7 +28,7 @@ class SphereLight final : public LightSampler {
         const double distance2 = from.length2();
         if (!(distance2 > kRadius * kRadius * (1 + 1e-9))) return {};  // inside it is dark
         const double distance = std::sqrt(distance2), rim = one_minus_cosine(kRadius * kRadius / distance2);
-        const V3d way = in_cone(AxisFrame(from / -distance), rim, square);
+        const V3d way = in_cone(AxesAround(from / -distance), rim, square);
         // The nearer point where the way meets the sphere.
         const double middle = -way.dot(from);
         const double half = std::sqrt(std::max(0.0, middle * middle - (distance2 - kRadius * kRadius)));

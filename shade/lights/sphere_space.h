@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/axis_frame.h"
+#include "core/axes_around.h"
 #include "core/math.h"
 
 namespace trapeze {
@@ -27,11 +27,11 @@ inline double one_minus_cosine(double sine2) {
     return sine2 / (1 + std::sqrt(1 - sine2));
 }
 
-/// A direction of a cone about the frame's axis, all solid angles alike; `rim` is one_minus_cosine() of the
-/// angle between the axis and the rim.
-inline V3d in_cone(const AxisFrame<double>& frame, double rim, const V2f& square) {
+/// A direction of a cone about the first of the axes, all solid angles alike; `rim` is one_minus_cosine() of
+/// the angle between the axis and the rim.
+inline V3d in_cone(const AxesAround<double>& axes, double rim, const V2f& square) {
     const double below = static_cast<double>(square.x) * rim, sine2 = below * (2 - below);
-    return frame.around(std::sqrt(sine2), 1 - below, static_cast<double>(square.y));
+    return axes.around(std::sqrt(sine2), 1 - below, static_cast<double>(square.y));
 }
 
 /// The linear part of a space's matrix.

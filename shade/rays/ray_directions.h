@@ -2,7 +2,7 @@
 /// different from point to point, and the same for any order of work [decision 0019].
 #pragma once
 
-#include "core/axis_frame.h"
+#include "core/axes_around.h"
 #include "core/math.h"
 #include "core/ray_sequence.h"
 
@@ -20,11 +20,11 @@ class Cone {
     V3f by_cosine(const V2f& square) const;
 
     /// Two directions across the axis, at right angles.
-    const V3f& across() const { return frame_.across; }
-    const V3f& along() const { return frame_.along; }
+    const V3f& across() const { return axes_.across; }
+    const V3f& along() const { return axes_.along; }
 
   private:
-    AxisFrame<float> frame_;
+    AxesAround<float> axes_;
     float least_cosine_;
 };
 

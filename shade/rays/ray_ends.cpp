@@ -1,7 +1,7 @@
 /// Where rays end without having met anything: what they come there through dims what arrives.
 #include <algorithm>
 
-#include "core/axis_frame.h"
+#include "core/axes_around.h"
 #include "shade/rays/inside_search.h"
 #include "shade/rays/ray_walk.h"
 
@@ -13,7 +13,7 @@ constexpr size_t kEndsTogether = 256;
 
 /// A micropolygon of this side that faces the ray, of nothing, the first vertex at the end.
 void make_end(const V3f& end, const V3f& direction, float side, ShadingGrid& grid) {
-    const AxisFrame<float> facing(-direction);
+    const AxesAround<float> facing(-direction);
     grid.shape = GridShape{1, 1};
     const size_t count = grid.vertex_count();
     grid.face_sides = 0, grid.key_count = 1, grid.reverse_orientation = false;

@@ -137,77 +137,65 @@ void add_derivatives(std::vector<BuiltinCase>& cases) {
                      TRAPEZE_GIVES(std::clamp((x + 0.25 - 0.5) / 0.5, 0.0, 1.0)), 1e-5});
 }
 
-}  // namespace
-
-std::vector<BuiltinCase> pattern_cases() {
-    std::vector<BuiltinCase> cases;
-    add_noises(cases);
-    add_splines(cases);
-    add_derivatives(cases);
-    return cases;
-}
-
-std::vector<BuiltinCase> asking_cases() {
+void add_lights_and_rays(std::vector<BuiltinCase>& cases) {
     // The lights: an ambient one of (0.1, 0.2, 0.3), and one of (1, 2, 4) from where N points.
     const std::string V = "normalize(vector (1, 0, -1))";
-    std::vector<BuiltinCase> cases{
-        {"r = K(ambient()) + X;", TRAPEZE_GIVES(0.1 + 2 + 30 + x), 1e-5},
-        {"r = K(diffuse(normal (0, 0, -X)));", TRAPEZE_GIVES(x * 421), 1e-3},
-        {"r = comp(specular(normal (0, 0, -1), " + V + ", 0.25), 1) + X;",
-         TRAPEZE_GIVES(2 * std::pow(std::cos(std::atan(1.0) / 2), 32) + x), 1e-5},
-        {"r = comp(specularstd(normal (0, 0, -3), 2 * " + V + ", 0.25), 1) + X;",
-         TRAPEZE_GIVES(2 * std::pow(std::cos(std::atan(1.0) / 2), 4) + x), 1e-5},
-        {"r = comp(phong(normal (0, 0, -1), " + V + ", 4), 1) + X;", TRAPEZE_GIVES(2 * 0.25 + x), 1e-5},
-        {"r = comp(specularbrdf(vector (0, 0, -1), normal (0, 0, -1), " + V + ", 0.25), 1) + X;",
-         TRAPEZE_GIVES(std::pow(std::cos(std::atan(1.0) / 2), 32) + x), 1e-5},
-        // Rays miss everything.
-        {"color c = trace(P, vector (X, 0, 1)); r = K(c) + X;", TRAPEZE_GIVES(x)},
-        {"float d = trace(P, vector (X, 0, 1)); r = d > 1e29 ? X : -1;", TRAPEZE_GIVES(x)},
-        {"float d = 0; color t = 0, c = trace(P, N, d, \"transmission\", t); r = d > 1e29 ? K(t) + X : -1;",
-         TRAPEZE_GIVES(111 + x), 1e-4},
-        {"r = K(transmission(P, point (X, Y, 9))) + X;", TRAPEZE_GIVES(111 + x), 1e-4},
-        {"color c = visibility(P, point (X, Y, 9)); r = K(c) + X;", TRAPEZE_GIVES(111 + x), 1e-4},
-        {"float c = visibility(P, point (X, Y, 9)); r = c + X;", TRAPEZE_GIVES(1 + x)},
-        {"r = occlusion(P, N, 16, \"maxdist\", 3) + X;", TRAPEZE_GIVES(x)},
-        {"r = occlusion(\"map\", P, N, 0, \"samples\", 3) + X;", TRAPEZE_GIVES(x)},
-        {"r = K(indirectdiffuse(P, N, 16)) + X;", TRAPEZE_GIVES(x)},
-        {"r = K(indirectdiffuse(\"map\", vector (X, 0, 1))) + X;", TRAPEZE_GIVES(x)},
-        {"float d = 3; r = rayinfo(\"depth\", d) * 10 + d + X;", TRAPEZE_GIVES(10 + x)},
-        {"float d = 3; r = rayinfo(\"speed\", d) * 10 + d + X;", TRAPEZE_GIVES(3 + x)},
-        {"r = raylevel() + X;", TRAPEZE_GIVES(x)},
-        {"r = raydepth() + X;", TRAPEZE_GIVES(x)},
-        {"r = raylabel() == \"\" ? X : -1;", TRAPEZE_GIVES(x)},
-        {"string a = \"\"; r = rayinfo(\"type\", a) + (a == \"camera\" ? X : -1);", TRAPEZE_GIVES(1 + x)},
-        // Maps give 100 times the channel, 10 times the number of coordinates, the first coordinate, and 0, 1
-        // and 2 for red, green and blue.
-        {"float a = texture(\"m\"); r = a - s + X;", TRAPEZE_GIVES(20 + x), 1e-5},
-        {"color a = texture(\"m\"[3]); r = K(a) - 111 * s + X;", TRAPEZE_GIVES(111 * 320 + 210 + x), 5e-2},
-        {"float a = texture(\"m\"[2], X, Y, \"blur\", 0.5); r = a;", TRAPEZE_GIVES(220 + x), 1e-4},
-        {"color a = texture(\"m\", X, Y); r = K(a);", TRAPEZE_GIVES(111 * (20 + x) + 210), 1e-2},
-        {"float a = texture(\"m\", X, Y, 1, 0, 1, 1, 0, 1); r = a;", TRAPEZE_GIVES(80 + x), 1e-4},
-        {"color a = texture(\"m\", X, Y, 1, 0, 1, 1, 0, 1); r = K(a);", TRAPEZE_GIVES(111 * (80 + x) + 210),
-         1e-2},
-        {"r = K(bump(\"m\", normal (X, 0, 1), dPdu, dPdv));", TRAPEZE_GIVES(111 * (50 + x) + 210), 1e-2},
-        {"r = K(bump(\"m\", normal (X, 0, 1), dPdu, dPdv, X, Y));", TRAPEZE_GIVES(111 * (50 + x) + 210),
-         1e-2},
-        {"r = K(bump(\"m\", normal (X, 0, 1), dPdu, dPdv, X, Y, 1, 0, 1, 1, 0, 1));",
-         TRAPEZE_GIVES(111 * (110 + x) + 210), 1e-2},
-        {"float v = 3; r = textureinfo(\"m\", \"known\", v) * 10 + v + X;", TRAPEZE_GIVES(10.25 + x), 1e-5},
-        {"string a = shadername(); r = a == \"shader\" ? X : -1;", TRAPEZE_GIVES(x)},
-        {"string a = shadername(\"light\"); r = a == \"shader light\" ? X : -1;", TRAPEZE_GIVES(x)},
-        {"r = bake(\"f\", X, Y, 1) + bake3d(\"f\", \"\", P, N) + texture3d(\"f\", P, N) + X;",
-         TRAPEZE_GIVES(x)},
-        {"r = K(photonmap(\"f\", P, N) + caustic(P, N) + irradiance(P, N) + subsurface(P, N)) + X;",
-         TRAPEZE_GIVES(x)},
-        {"float a = areashadow(P, 4); color b = areashadow(P, 4), c = fulltrace(P, N); r = a + K(b + c) + X;",
-         TRAPEZE_GIVES(x)},
-        {"float a = fulltrace(P, N); r = a + X;", TRAPEZE_GIVES(x)},
-        {"float n = islightcategory(\"a\"); illuminance(P) n += 2 * islightcategory(\"a\"); r = n + X;",
-         TRAPEZE_GIVES(2 + x)},
-        {"r = raydepth() + isindirectray() + isshadowray() + (rayhittest(P, N) > 1e29 ? X : -1);",
-         TRAPEZE_GIVES(x)},
-        {"string a = raylabel(); r = a == \"\" ? X : -1;", TRAPEZE_GIVES(x)},
-    };
+    cases.insert(
+        cases.end(),
+        {
+            {"r = K(ambient()) + X;", TRAPEZE_GIVES(0.1 + 2 + 30 + x), 1e-5},
+            {"r = K(diffuse(normal (0, 0, -X)));", TRAPEZE_GIVES(x * 421), 1e-3},
+            {"r = comp(specular(normal (0, 0, -1), " + V + ", 0.25), 1) + X;",
+             TRAPEZE_GIVES(2 * std::pow(std::cos(std::atan(1.0) / 2), 32) + x), 1e-5},
+            {"r = comp(specularstd(normal (0, 0, -3), 2 * " + V + ", 0.25), 1) + X;",
+             TRAPEZE_GIVES(2 * std::pow(std::cos(std::atan(1.0) / 2), 4) + x), 1e-5},
+            {"r = comp(phong(normal (0, 0, -1), " + V + ", 4), 1) + X;", TRAPEZE_GIVES(2 * 0.25 + x), 1e-5},
+            {"r = comp(specularbrdf(vector (0, 0, -1), normal (0, 0, -1), " + V + ", 0.25), 1) + X;",
+             TRAPEZE_GIVES(std::pow(std::cos(std::atan(1.0) / 2), 32) + x), 1e-5},
+            // Rays miss everything.
+            {"color c = trace(P, vector (X, 0, 1)); r = K(c) + X;", TRAPEZE_GIVES(x)},
+            {"float d = trace(P, vector (X, 0, 1)); r = d > 1e29 ? X : -1;", TRAPEZE_GIVES(x)},
+            {"float d = 0; color t = 0, c = trace(P, N, d, \"transmission\", t); r = d > 1e29 ? K(t) + X : -1;",
+             TRAPEZE_GIVES(111 + x), 1e-4},
+            {"r = K(transmission(P, point (X, Y, 9))) + X;", TRAPEZE_GIVES(111 + x), 1e-4},
+            {"color c = visibility(P, point (X, Y, 9)); r = K(c) + X;", TRAPEZE_GIVES(111 + x), 1e-4},
+            {"float c = visibility(P, point (X, Y, 9)); r = c + X;", TRAPEZE_GIVES(1 + x)},
+            {"r = occlusion(P, N, 16, \"maxdist\", 3) + X;", TRAPEZE_GIVES(x)},
+            {"r = occlusion(\"map\", P, N, 0, \"samples\", 3) + X;", TRAPEZE_GIVES(x)},
+            {"r = K(indirectdiffuse(P, N, 16)) + X;", TRAPEZE_GIVES(x)},
+            {"r = K(indirectdiffuse(\"map\", vector (X, 0, 1))) + X;", TRAPEZE_GIVES(x)},
+            {"float d = 3; r = rayinfo(\"depth\", d) * 10 + d + X;", TRAPEZE_GIVES(10 + x)},
+            {"float d = 3; r = rayinfo(\"speed\", d) * 10 + d + X;", TRAPEZE_GIVES(3 + x)},
+            {"r = raylevel() + X;", TRAPEZE_GIVES(x)},
+            {"r = raydepth() + X;", TRAPEZE_GIVES(x)},
+            {"r = raylabel() == \"\" ? X : -1;", TRAPEZE_GIVES(x)},
+            {"string a = \"\"; r = rayinfo(\"type\", a) + (a == \"camera\" ? X : -1);", TRAPEZE_GIVES(1 + x)},
+        });
+}
+
+void add_maps(std::vector<BuiltinCase>& cases) {
+    cases.insert(
+        cases.end(),
+        {
+            // Maps give 100 times the channel, 10 times the number of coordinates, the first coordinate, and
+            // 0, 1
+            // and 2 for red, green and blue.
+            {"float a = texture(\"m\"); r = a - s + X;", TRAPEZE_GIVES(20 + x), 1e-5},
+            {"color a = texture(\"m\"[3]); r = K(a) - 111 * s + X;", TRAPEZE_GIVES(111 * 320 + 210 + x),
+             5e-2},
+            {"float a = texture(\"m\"[2], X, Y, \"blur\", 0.5); r = a;", TRAPEZE_GIVES(220 + x), 1e-4},
+            {"color a = texture(\"m\", X, Y); r = K(a);", TRAPEZE_GIVES(111 * (20 + x) + 210), 1e-2},
+            {"float a = texture(\"m\", X, Y, 1, 0, 1, 1, 0, 1); r = a;", TRAPEZE_GIVES(80 + x), 1e-4},
+            {"color a = texture(\"m\", X, Y, 1, 0, 1, 1, 0, 1); r = K(a);",
+             TRAPEZE_GIVES(111 * (80 + x) + 210), 1e-2},
+            {"r = K(bump(\"m\", normal (X, 0, 1), dPdu, dPdv));", TRAPEZE_GIVES(111 * (50 + x) + 210), 1e-2},
+            {"r = K(bump(\"m\", normal (X, 0, 1), dPdu, dPdv, X, Y));", TRAPEZE_GIVES(111 * (50 + x) + 210),
+             1e-2},
+            {"r = K(bump(\"m\", normal (X, 0, 1), dPdu, dPdv, X, Y, 1, 0, 1, 1, 0, 1));",
+             TRAPEZE_GIVES(111 * (110 + x) + 210), 1e-2},
+            {"float v = 3; r = textureinfo(\"m\", \"known\", v) * 10 + v + X;", TRAPEZE_GIVES(10.25 + x),
+             1e-5},
+        });
     for (const std::string function : {"environment", "shadow"}) {
         const std::string type = function == "shadow" ? "point" : "vector";
         const std::string one = type + " (X, 1, 2)", four = one + ", " + one + ", " + one + ", " + one;
@@ -220,6 +208,40 @@ std::vector<BuiltinCase> asking_cases() {
         cases.push_back({"color a = " + function + "(\"m\", " + four + "); r = K(a);",
                          TRAPEZE_GIVES(111 * (40 + x) + 210), 1e-2});
     }
+}
+
+}  // namespace
+
+std::vector<BuiltinCase> pattern_cases() {
+    std::vector<BuiltinCase> cases;
+    add_noises(cases);
+    add_splines(cases);
+    add_derivatives(cases);
+    return cases;
+}
+
+std::vector<BuiltinCase> asking_cases() {
+    std::vector<BuiltinCase> cases;
+    add_lights_and_rays(cases);
+    add_maps(cases);
+    cases.insert(
+        cases.end(),
+        {
+            {"string a = shadername(); r = a == \"shader\" ? X : -1;", TRAPEZE_GIVES(x)},
+            {"string a = shadername(\"light\"); r = a == \"shader light\" ? X : -1;", TRAPEZE_GIVES(x)},
+            {"r = bake(\"f\", X, Y, 1) + bake3d(\"f\", \"\", P, N) + texture3d(\"f\", P, N) + X;",
+             TRAPEZE_GIVES(x)},
+            {"r = K(photonmap(\"f\", P, N) + caustic(P, N) + irradiance(P, N) + subsurface(P, N)) + X;",
+             TRAPEZE_GIVES(x)},
+            {"float a = areashadow(P, 4); color b = areashadow(P, 4), c = fulltrace(P, N); r = a + K(b + c) + X;",
+             TRAPEZE_GIVES(x)},
+            {"float a = fulltrace(P, N); r = a + X;", TRAPEZE_GIVES(x)},
+            {"float n = islightcategory(\"a\"); illuminance(P) n += 2 * islightcategory(\"a\"); r = n + X;",
+             TRAPEZE_GIVES(2 + x)},
+            {"r = raydepth() + isindirectray() + isshadowray() + (rayhittest(P, N) > 1e29 ? X : -1);",
+             TRAPEZE_GIVES(x)},
+            {"string a = raylabel(); r = a == \"\" ? X : -1;", TRAPEZE_GIVES(x)},
+        });
     // Of later renderers, and not there.
     for (const std::string function : {"wnoise", "randomgrid", "randomstrat"})
         cases.push_back({"float a = " + function + "(P, 1); color b = " + function +

@@ -77,7 +77,7 @@ struct NodeSlabs {
     }
 };
 
-/// A ray against the boxes of a grid at the ray's time, in the grid's frame. It comes into those of code c,
+/// A ray against the boxes of a grid at the ray's time, in the grid's axes. It comes into those of code c,
 /// of axis k, at depth step[0][k] * c - enter[k], and goes out at step[0][k] * c - leave[k]; where the grid
 /// moves, + step[1][k] times the code at the segment's end.
 template <bool kMotion>
@@ -91,9 +91,9 @@ class GridSlabs {
         codes_[0] = keys.box_codes(segment.index);
         if constexpr (kMotion) codes_[1] = codes_[0] + grid.key_bytes();
 #if HWY_TARGET == HWY_SCALAR
-        const FrameAxes axes = grid.axes.unpacked();
-        const KeyBounds from = keys.framed(segment.index),
-                        to = kMotion ? keys.framed(segment.index + 1) : from;
+        const GridAxes axes = grid.axes.unpacked();
+        const KeyBounds from = keys.oriented(segment.index),
+                        to = kMotion ? keys.oriented(segment.index + 1) : from;
         for (int k = 0; k < 3; ++k) {
             const float* a = axes.axis[k];
             const float direction = a[0] * ray.direction.x + a[1] * ray.direction.y + a[2] * ray.direction.z;
@@ -108,7 +108,7 @@ class GridSlabs {
             backward_ |= static_cast<uint32_t>(inverse < 0) << k;
         }
 #else
-        // Lanes are the axes of the frame; the last one means nothing.
+        // Lanes are the axes; the last one means nothing.
         const hn::FixedTag<float, 4> d;
         const auto x = axes_along<0>(grid), y = axes_along<1>(grid), z = axes_along<2>(grid);
         const auto turned = [&](const V3f& v) HWY_ATTR {
@@ -188,7 +188,7 @@ class GridSlabs {
         return hn::Mul(hn::ConvertTo(d, upper), hn::Set(d, 0x1p-16f / PackedAxes::kOne));
     }
 #endif
-    /// Depths at which the ray comes into boxes and goes out along an axis of the frame.
+    /// Depths at which the ray comes into boxes and goes out along an axis of the grid.
     template <int kAxis>
     HWY_INLINE void slab(size_t first, VF& in, VF& out) const {
         const size_t backward = backward_ >> kAxis & 1, in_row = (kAxis + 3 * backward) * count_ + first,

@@ -106,14 +106,14 @@ class ScalarRay {
         }
     }
 
-    /// The ray in the grid's frame against its boxes at the ray's time, one after another, then against all
+    /// The ray in the grid's axes against its boxes at the ray's time, one after another, then against all
     /// micropolygons in those it meets.
     void visit_grid(uint32_t index) {
         const WideGrid& record = tree_.grid(index);
         const MotionSegment segment = segment_at(ray_.axis.time, record.key_count);
         BoxPlanes boxes;
         tree_.decode(record, segment.index, boxes);
-        const FrameAxes axes = record.axes.unpacked();
+        const GridAxes axes = record.axes.unpacked();
         constexpr size_t kStride = BoxPlanes::kMost;
         float origin[3], inverse[3];
         for (int k = 0; k < 3; ++k) {

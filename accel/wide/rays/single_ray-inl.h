@@ -229,7 +229,7 @@ class SingleRay {
             visit_boxes<false>(index, grid);
     }
 
-    /// The ray in the grid's frame against all of its boxes at the ray's time, then against the
+    /// The ray in the grid's axes against all of its boxes at the ray's time, then against the
     /// micropolygons of those that it meets.
     template <bool kGridMoves>
     HWY_INLINE void visit_boxes(uint32_t index, const WideGrid& grid) {

@@ -1,7 +1,7 @@
 /// Figures as one table for statistics programs and spreadsheets.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace trapeze {

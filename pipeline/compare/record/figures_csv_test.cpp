@@ -1,6 +1,7 @@
 #include "pipeline/compare/record/figures_csv.h"
 
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "pipeline/compare/record/csv_harness.h"
 

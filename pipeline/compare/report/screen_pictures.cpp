@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "composite/displays/png_bytes.h"
 #include "composite/displays/srgb.h"
 #include "pipeline/compare/report/encoded_text.h"
+#include "pipeline/compare/report/png_bytes.h"
 #include "pipeline/compare/report/viridis.h"
 
 namespace trapeze {

@@ -8,6 +8,7 @@
 
 namespace trapeze::rib {
 
+/// The text ends where the program, a limit or the caller ended it.
 struct ProgramAnswer {
     std::string text;     ///< as far as it came
     std::string problem;  ///< empty when it is whole

@@ -13,6 +13,7 @@
 
 namespace trapeze::rib {
 
+/// One, as the request has it; nothing has looked at whether its shader knows it.
 struct RisParameter {
     std::string name;
     std::string type;           ///< the word before the name, such as "color" or "float[4]"; may be empty

@@ -1,5 +1,5 @@
 /// Rotating surfaces' keys, by circles written down here.
-#include "core/motion_keys.h"
+#include "core/motion_keys_harness.h"
 #include "pipeline/rib/reading_harness.h"
 
 namespace trapeze::testing {

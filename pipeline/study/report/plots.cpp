@@ -14,11 +14,11 @@ namespace {
 // In the units of the view box.
 constexpr double kWidth = 580, kHeight = 340, kLeft = 62, kRight = 18, kTop = 34, kBottom = 50;
 
-struct Axes {
+struct PlotAxes {
     PlotAxis x, y;
 };
 
-Axes axes_for(double x_low, double x_high, double y_high) {
+PlotAxes axes_for(double x_low, double x_high, double y_high) {
     return {plot_axis(x_low, x_high, kLeft, kWidth - kRight), plot_axis(0, y_high, kHeight - kBottom, kTop)};
 }
 
@@ -31,7 +31,7 @@ std::string open_svg(const std::string& description) {
                        kHeight, escaped(description));
 }
 
-std::string draw_axes(const Axes& axes, const std::string& x_title, const std::string& y_title) {
+std::string draw_axes(const PlotAxes& axes, const std::string& x_title, const std::string& y_title) {
     std::string out;
     for (const double tick : axes.y.ticks(5)) {
         const double y = axes.y.place(tick);
@@ -52,7 +52,7 @@ std::string draw_axes(const Axes& axes, const std::string& x_title, const std::s
     return out + "\n";
 }
 
-std::string draw_series(const PlotSeries& series, size_t index, const Axes& axes) {
+std::string draw_series(const PlotSeries& series, size_t index, const PlotAxes& axes) {
     std::string line, points;
     const size_t style = index % 3;
     for (const auto& [x, y] : series.points) {
@@ -85,7 +85,7 @@ std::string line_plot(const LinePlot& plot) {
         for (const auto& [x, y] : series.points)
             low = std::min(low, x), high = std::max(high, x), most = std::max(most, y);
     if (low > high) low = 0, high = 1;
-    const Axes axes = axes_for(low, high, most * 1.05);
+    const PlotAxes axes = axes_for(low, high, most * 1.05);
     std::string out =
         open_svg(plot.title) + draw_axes(axes, plot.x_title, plot.y_title) + draw_names(plot.series);
     for (size_t i = 0; i < plot.series.size(); ++i) out += draw_series(plot.series[i], i, axes);
@@ -96,7 +96,7 @@ std::string histogram_plot(const HistogramPlot& plot) {
     uint64_t most = 0;
     for (const uint64_t count : plot.counts) most = std::max(most, count);
     const double high = plot.low + plot.bin * static_cast<double>(plot.counts.size());
-    const Axes axes = axes_for(plot.low, high, static_cast<double>(most) * 1.05);
+    const PlotAxes axes = axes_for(plot.low, high, static_cast<double>(most) * 1.05);
     std::string out = open_svg(plot.title) + draw_axes(axes, plot.x_title, "grids");
     for (size_t i = 0; i < plot.counts.size(); ++i) {
         const double from = plot.low + plot.bin * static_cast<double>(i), x = axes.x.place(from);

@@ -1,7 +1,7 @@
 /// A study for people: on the terminal, as JSON, and as one HTML file that needs no network.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "pipeline/study/study_result.h"

@@ -251,11 +251,6 @@ Kernel find_spline_inverse(SplineBasis basis) {
     return HWY_DYNAMIC_DISPATCH(find_inverse)(basis);
 }
 
-int used_knots(SplineBasis basis, int count) {
-    const int step = kSplineRules[static_cast<size_t>(basis)].step;
-    return count < 4 ? 0 : 4 + (count - 4) / step * step;
-}
-
 Kernel find_spline_kernel(SplineBasis basis, int width) {
     return HWY_DYNAMIC_DISPATCH(find_spline)(basis, width);
 }

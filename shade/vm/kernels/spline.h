@@ -20,10 +20,6 @@ std::optional<SplineBasis> spline_basis(std::string_view name);
 /// "constant" has no inverse.
 std::optional<SplineBasis> solved_spline_basis(std::string_view name);
 
-/// Knots that a spline of `count` of them uses: 4 + a multiple of 3 (bezier) or 2 (hermite) or any number
-/// from 4. 0 for fewer than 4.
-int used_knots(SplineBasis basis, int count);
-
 /// Operands: out, value, and either the knots one by one or one array of them, all of the output's width (1
 /// or 3). The value is clamped to 0..1. A curve starts at the second knot and ends at the last but one (at
 /// the first and the last knot for bezier and hermite, where knots are points and tangents in turns). Fewer

@@ -130,10 +130,6 @@ TEST(Spline, KnowsItsBases) {
     EXPECT_EQ(spline_basis("bspline"), SplineBasis::BSpline);
     EXPECT_EQ(spline_basis("b-spline"), SplineBasis::BSpline);
     EXPECT_FALSE(spline_basis("Bezier"));
-    EXPECT_EQ(used_knots(SplineBasis::Bezier, 9), 7);
-    EXPECT_EQ(used_knots(SplineBasis::Hermite, 7), 6);
-    EXPECT_EQ(used_knots(SplineBasis::Linear, 9), 9);
-    EXPECT_EQ(used_knots(SplineBasis::Linear, 3), 0);
     EXPECT_EQ(solved_spline_basis("solveb-spline"), SplineBasis::BSpline);
     EXPECT_FALSE(solved_spline_basis("solveconstant") || solved_spline_basis("solve") ||
                  solved_spline_basis("linear"));

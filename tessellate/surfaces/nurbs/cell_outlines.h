@@ -23,6 +23,7 @@ struct CellBorderNode {
     bool kept_after = false;  ///< the border from here to the next node
 };
 
+/// One polygon with its holes, as point numbers.
 struct CellOutline {
     std::vector<int> outer;               ///< anticlockwise
     std::vector<std::vector<int>> holes;  ///< clockwise

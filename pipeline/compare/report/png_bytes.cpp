@@ -1,4 +1,4 @@
-#include "composite/displays/png_bytes.h"
+#include "pipeline/compare/report/png_bytes.h"
 
 #include <stdexcept>
 

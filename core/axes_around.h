@@ -1,4 +1,4 @@
-/// Frames about an axis: for directions around it, and for what lies across it.
+/// Axes around one: for directions around it, and for what lies across it.
 #pragma once
 
 #include <cmath>
@@ -12,12 +12,12 @@ namespace trapeze {
 /// An axis with two directions across it, all of unit length and at right angles. It is continuous but at
 /// one axis [Duff17].
 template <class T>
-struct AxisFrame {
+struct AxesAround {
     using Vector = Imath::Vec3<T>;
 
     Vector axis, across, along;
 
-    explicit AxisFrame(const Vector& unit) : axis(unit) {
+    explicit AxesAround(const Vector& unit) : axis(unit) {
         const T sign = std::copysign(T(1), axis.z), a = -1 / (sign + axis.z), b = axis.x * axis.y * a;
         across = {1 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x};
         along = {b, sign + axis.y * axis.y * a, -axis.y};
