@@ -172,6 +172,8 @@ class CutVisibility : public Visibility {
         const int solid = solid_of(hit);
         if (solid >= 0) list.holding().cross(solid);
         if (solid >= 0 && !state.cross(solid)) return true;
+        if (solid >= 0 && !sees_border(scene_.primitives[grid_of(hit).primitive], state.whole_holds(solid)))
+            return true;
         if (is_cut_away(asked.samples.rays[s], hit)) return true;
         list.is_cut = list.kept == most;
         if (list.is_cut) return false;

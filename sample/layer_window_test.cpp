@@ -155,7 +155,14 @@ TEST_P(LayerWindows, FindWhatIsLeftOfSolids) {
                     {Operation::Union, 0, 1},
                     {Operation::Primitive, 2, 0},
                     {Operation::Primitive, 2, 1}};
-    for (const int solid : {1, 3, 4, -1}) scene.primitives.emplace_back().solid = solid;
+    for (const int solid : {1, 3, 4, -1}) {
+        Attributes attributes;
+        attributes.sides = solid == 3 ? 1 : 2;
+        Primitive& primitive = scene.primitives.emplace_back();
+        primitive.solid = solid;
+        primitive.attributes = std::make_shared<const Attributes>(attributes);
+        primitive.camera_from_object = {M44f()};
+    }
     scene.clipping_planes.push_back({V3f(0, 0.1f, 1), 3.5f});
     for (size_t i = 0; i < grids.grids.size(); ++i) {
         grids.grids[i].primitive = static_cast<uint32_t>(i % scene.primitives.size());

@@ -153,10 +153,10 @@ bool faces_the_eye(const Shape& shape) {
 }
 
 PackOptions pack_options(const Scene& scene, const Primitive& primitive) {
-    const bool cut = may_be_cut(scene, primitive);
-    return {cut || !seen_numbers(*primitive.attributes).are_all() ||
+    // Which parts bound a solid depends on all of its surfaces; a plane cuts each hit by itself.
+    return {may_be_cut(scene, primitive) || !seen_numbers(*primitive.attributes).are_all() ||
                 depth_filter(scene.options) == DepthFilter::Midpoint,
-            cut || faces_the_eye(primitive.shape())};
+            primitive.solid >= 0 || faces_the_eye(primitive.shape())};
 }
 
 Grid pack_grid(const ShadingGrid& shading, GridArena& arena, int64_t* not_finite,

@@ -62,4 +62,11 @@ bool SolidState::cross(int leaf) {
     return true;
 }
 
+/// A mirrored space turns what dPdu x dPdv points to over, but not what is outside.
+bool sees_border(const Primitive& primitive, bool enters) {
+    if (primitive.attributes->sides != 1) return true;
+    const bool mirrored = M44d(primitive.camera_from_object.front()).determinant() < 0;
+    return enters == (primitive.attributes->reverse_orientation == mirrored);
+}
+
 }  // namespace trapeze

@@ -31,4 +31,8 @@ class SolidState {
     std::vector<int> touched_;       ///< solids to reset
 };
 
+/// Whether a ray sees a border of a whole solid that it enters there, or leaves: of Sides 1 those that face
+/// it. `primitive`: whose surface the border is.
+bool sees_border(const Primitive& primitive, bool enters);
+
 }  // namespace trapeze

@@ -20,8 +20,11 @@ RenderContext make_context(const Scene& scene, const RenderSettings& settings, D
     context.sample_levels = sampling.levels, context.pixel_variance = sampling.variance;
     context.seed = settings.seed;
     context.most_layers = layer_limit(scene.options);
-    context.motion = std::any_of(scene.primitives.begin(), scene.primitives.end(),
-                                 [](const Primitive& primitive) { return primitive.key_count() > 1; });
+    context.motion =
+        std::ranges::any_of(scene.primitives,
+                            [](const Primitive& primitive) { return primitive.key_count() > 1; }) ||
+        std::ranges::any_of(scene.clipping_planes,
+                            [](const ClippingPlane& plane) { return plane.keys.size() > 1; });
     context.float_colors = holds_more_than_halves(scene.options);
     OpenedColors opened = open_colors(scene.options, settings.colors, *settings.access, diagnostics);
     context.colors = std::move(opened.colors), context.lacks_colors = opened.failed;

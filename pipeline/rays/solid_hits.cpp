@@ -13,12 +13,13 @@ float behind(float distance) {
     return distance;
 }
 
-/// Whether a call wants the hit: by the solid's own sides.
-bool is_wanted(const RayFilter& filter, const RaySurfaceHit& hit) {
+/// Whether a ray wants the hit: by the solid's own sides.
+bool is_wanted(const RayFilter* filter, const RaySurfaceHit& hit, const Primitive& primitive) {
     using Sides = RayFilter::Sides;
-    if (!filter.admits(hit.attributes->groups)) return false;
-    return (filter.sides != Sides::Front && filter.sides != Sides::Back) ||
-           hit.from_outside == (filter.sides == Sides::Front);
+    if (filter && !filter->admits(hit.attributes->groups)) return false;
+    const Sides sides = filter ? filter->sides : Sides::OfAttributes;
+    if (sides == Sides::OfAttributes) return sees_border(primitive, hit.from_outside);
+    return sides == Sides::Both || hit.from_outside == (sides == Sides::Front);
 }
 
 }  // namespace
@@ -45,7 +46,7 @@ std::optional<RaySurfaceHit> SolidHits::nearest(const RaySegment& ray, const Fin
         if (solid >= 0) {
             if (!state.cross(solid)) continue;
             hit.from_outside = state.whole_holds(solid);
-            if (ray.only && !is_wanted(*ray.only, hit)) continue;
+            if (!is_wanted(ray.only, hit, scene_.primitives[hit.primitive])) continue;
         }
         return hit;
     }

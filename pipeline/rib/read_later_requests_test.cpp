@@ -120,9 +120,9 @@ TEST(ClippingPlanes, MoveAsTheirSpaceDoes) {
         "Shutter 0 .5 WorldBegin WorldEnd");
     const ClippingPlane& plane = outcome.scene().clipping_planes.at(0);
     EXPECT_EQ(plane.distance, 0);
-    ASSERT_EQ(plane.keys.size(), 17u);
+    ASSERT_EQ(plane.keys.size(), 65u);
     EXPECT_EQ(plane.keys.front().distance, 0);
-    EXPECT_EQ(plane.keys[8].distance, -0.25f);
+    EXPECT_EQ(plane.keys[32].distance, -0.25f);
     EXPECT_EQ(plane.keys.back().distance, -0.5f);
     EXPECT_EQ(plane.keys.back().normal, V3f(-1, 0, 0));
 }

@@ -3,6 +3,8 @@
 
 #include "pipeline/rib/reader/scene_builder.h"
 #include "pipeline/rib/state/attribute_values.h"
+#include "pipeline/rib/state/deforming_shape.h"
+#include "pipeline/rib/state/motion_paths.h"
 #include "pipeline/rib/state/scene_size.h"
 
 namespace trapeze::rib {
@@ -180,7 +182,7 @@ void SceneBuilder::instance(const std::string& handle) {
 
 /// A primitive of an object, in a state whose transformation is the instance's: into the scene, or into the
 /// object that is being defined. Poses at the keys of the shutter are made by the first instance and shared
-/// by all, as long as the shutter stays the same.
+/// by all, as long as the shutter stays the same and none wants more keys.
 void SceneBuilder::place_instance(ObjectPrimitive& primitive, GraphicsState state, int solid) {
     state.transform.concat(primitive.object_from_shape);
     if (object_) {
@@ -194,8 +196,13 @@ void SceneBuilder::place_instance(ObjectPrimitive& primitive, GraphicsState stat
         return;
     }
     const float open = state_.options().shutter_open, close = state_.options().shutter_close;
-    if (primitive.keys.empty() || primitive.keys_open != open || primitive.keys_close != close) {
-        primitive.keys = shapes_at_keys(primitive.shapes, primitive.times, open, close);
+    const bool stays = primitive.keys_open == open && primitive.keys_close == close;
+    const int wanted = primitive.shapes.size() < 2
+                           ? 1
+                           : keys_for_poses(primitive.shapes, primitive.times, state.transform, open, close,
+                                            make_camera(state_.options()));
+    if (!stays || primitive.keys.size() < static_cast<size_t>(wanted)) {
+        primitive.keys = shapes_at_keys(primitive.shapes, primitive.times, open, close, wanted);
         primitive.keys_open = open, primitive.keys_close = close;
         if (primitive.keys.size() > 1 && !has_room(primitive.keys.size() * bytes_of(*primitive.keys.front())))
             return;

@@ -302,8 +302,10 @@ void SceneBuilder::add_moving_shape(MovingShape moving) {
     if (object_)
         return add_to_object(std::move(moving.request), std::move(moving.shapes), std::move(moving.times),
                              moving.at);
-    const auto keys = shapes_at_keys(moving.shapes, moving.times, state_.options().shutter_open,
-                                     state_.options().shutter_close);
+    const float open = state_.options().shutter_open, close = state_.options().shutter_close;
+    const int wanted = keys_for_poses(moving.shapes, moving.times, state_.current().transform, open, close,
+                                      make_camera(state_.options()));
+    const auto keys = shapes_at_keys(moving.shapes, moving.times, open, close, wanted);
     if (keeps_geometry() && !has_room(keys.size() * bytes_of(*keys.front()))) return;
     emit(moving.request, keys, state_.current(), moving.at, solid_of_surface(solids_));
 }

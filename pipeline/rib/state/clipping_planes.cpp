@@ -1,7 +1,7 @@
 /// Clipping planes (RISpec 4.1.1) as the camera sees them.
 #include <cmath>
 
-#include "core/scene/poses.h"
+#include "core/motion_keys.h"
 #include "pipeline/rib/state/deforming_shape.h"
 #include "pipeline/rib/state/graphics_state.h"
 
@@ -27,8 +27,8 @@ ClippingPlane ReadPlane::in_shutter(float open, float close) const {
     if (at(open, key)) plane.normal = key.normal, plane.distance = key.distance;
     if (!transform.moves_between(open, close)) return plane;
     key = {plane.normal, plane.distance};
-    for (int i = 0; i < kHeldKeys; ++i) {
-        at(key_time(open, close, i, kHeldKeys), key);
+    for (int i = 0; i < kMaxKeyCount; ++i) {  // they cost next to nothing
+        at(key_time(open, close, i, kMaxKeyCount), key);
         plane.keys.push_back(key);
     }
     return plane;

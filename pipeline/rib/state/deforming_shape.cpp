@@ -152,9 +152,7 @@ bool use_colors_at_open(std::vector<ShapePointer>& shapes, const std::vector<flo
 /// Poses at times outside of the shutter count where they bound a motion within. Keys at even times suit all
 /// later stages: a ray's segment is found by one multiplication.
 std::vector<ShapePointer> shapes_at_keys(const std::vector<ShapePointer>& shapes,
-                                         const std::vector<float>& times, float open, float close) {
-    const bool moves = shapes.size() > 1 && close > open && close > times.front() && open < times.back();
-    const int keys = moves ? keys_meeting(times, open, close) : 1;
+                                         const std::vector<float>& times, float open, float close, int keys) {
     std::vector<ShapePointer> resolved;
     for (int k = 0; k < keys; ++k)
         resolved.push_back(shape_at(shapes, times, key_time(open, close, k, keys)));

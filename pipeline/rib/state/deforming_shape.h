@@ -25,9 +25,9 @@ bool give_missing_variables(std::vector<ShapePointer>& shapes);
 /// other ones than that which the shutter opens with are given its own. Whether some do not stay the same.
 bool use_colors_at_open(std::vector<ShapePointer>& shapes, const std::vector<float>& times, float open);
 
-/// One shape when nothing moves within the shutter, else 2^m + 1 at even times. Before the first time and
-/// after the last a shape stays as it is.
+/// The shapes at so many even times of the shutter (keys_for_poses()). Before the first time and after the
+/// last a shape stays as it is.
 std::vector<ShapePointer> shapes_at_keys(const std::vector<ShapePointer>& shapes,
-                                         const std::vector<float>& times, float open, float close);
+                                         const std::vector<float>& times, float open, float close, int keys);
 
 }  // namespace trapeze::rib

@@ -6,6 +6,7 @@
 
 #include "core/motion_keys.h"
 #include "core/portable_math.h"
+#include "pipeline/rib/state/deforming_shape.h"
 
 namespace trapeze::rib {
 namespace {
@@ -195,6 +196,63 @@ float chord_error(const MovingTransform& transform, float open, float close, int
         from = to;
     }
     return most;
+}
+
+namespace {
+
+/// Points of given poses, the same ones of each.
+using PosePoints = std::vector<std::vector<std::optional<V3f>>>;
+
+/// Where a point is at a time, mixed linearly from pose to pose (RISpec 6).
+std::optional<V3d> point_at(const PosePoints& poses, const std::vector<float>& times, size_t point,
+                            float time) {
+    const size_t after = std::upper_bound(times.begin(), times.end(), time) - times.begin();
+    const size_t next = std::min(after, times.size() - 1), last = after == 0 ? 0 : after - 1;
+    const std::optional<V3f>&from = poses[last][point], &to = poses[next][point];
+    if (!from || !to) return {};
+    const double span = static_cast<double>(times[next]) - times[last];
+    const double part = span > 0 ? std::clamp((time - times[last]) / span, 0.0, 1.0) : 0;
+    return V3d(*from) * (1 - part) + V3d(*to) * part;
+}
+
+/// The farthest, in pixels, that a point of a pose is from its chord between two keys.
+float pose_error(const PosePoints& poses, const std::vector<float>& times, const std::vector<float>& between,
+                 const MovingTransform& transform, float open, float close, int keys, const Camera& camera) {
+    float most = 0;
+    for (const float time : between) {
+        const M44d matrix = transform.at(time);
+        const double place = (static_cast<double>(time) - open) / (close - open) * (keys - 1);
+        const int key = std::clamp(static_cast<int>(place), 0, keys - 2);
+        const double part = place - key;
+        const float from = key_time(open, close, key, keys), to = key_time(open, close, key + 1, keys);
+        for (size_t i = 0; i < poses.front().size(); ++i) {
+            const auto at = point_at(poses, times, i, time), a = point_at(poses, times, i, from),
+                       b = point_at(poses, times, i, to);
+            if (!at || !a || !b) continue;
+            V3d seen, chord;
+            matrix.multVecMatrix(*at, seen), matrix.multVecMatrix(*a * (1 - part) + *b * part, chord);
+            most = std::max(most, pixels_between(seen, chord, camera));
+        }
+    }
+    return most;
+}
+
+}  // namespace
+
+int keys_for_poses(const std::vector<std::shared_ptr<const Shape>>& shapes, const std::vector<float>& times,
+                   const MovingTransform& transform, float open, float close, const Camera& camera) {
+    if (shapes.size() < 2 || !(close > open) || !(close > times.front()) || !(open < times.back())) return 1;
+    int keys = keys_meeting(times, open, close);
+    PosePoints poses;
+    while (keys < kMaxKeyCount) {
+        const std::vector<float> between = times_between_keys(times, open, close, keys);
+        if (between.empty()) break;
+        if (poses.empty())
+            for (const auto& shape : shapes) poses.push_back(points_of(*shape));
+        if (pose_error(poses, times, between, transform, open, close, keys, camera) <= kMostPixels) break;
+        keys = 2 * keys - 1;
+    }
+    return keys;
 }
 
 /// Doubles the segments: keys that were met stay met.

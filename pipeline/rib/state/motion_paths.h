@@ -32,6 +32,12 @@ struct PointPaths {
 float chord_error(const MovingTransform& transform, float open, float close, int keys,
                   const PointPaths& paths, const std::vector<float>& times, const Camera& camera);
 
+/// How many even keys of the shutter poses of a shape at other times want: 1 where nothing moves within the
+/// shutter; where keys do not meet the times at least 17, and more until points are within a quarter of a
+/// pixel of their paths at these times, or there are kMaxKeyCount. `transform` is camera_from_object.
+int keys_for_poses(const std::vector<std::shared_ptr<const Shape>>& shapes, const std::vector<float>& times,
+                   const MovingTransform& transform, float open, float close, const Camera& camera);
+
 /// MovingTransform::wanted_keys(), and more until chords are within a quarter of a pixel of the paths, or
 /// there are kMaxKeyCount. What bends paths is a rotation, the product of several motions, or of one and the
 /// shape's own; and times that keys do not meet cut them short.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
 
 #include "core/motion_keys.h"
 #include "core/portable_math.h"
@@ -60,11 +62,12 @@ M44d skew(const TransformArguments& a) {
     return m;
 }
 
-/// Whether a time within the shutter is one of its keys: to a ten-thousandth of a segment, for times are
-/// floats.
-bool is_met(float time, float open, float close, int keys) {
+/// The key of the shutter that a time within it is: to a ten-thousandth of a segment, for times are floats.
+std::optional<int> key_of(float time, float open, float close, int keys) {
     const float place = (time - open) / (close - open) * static_cast<float>(keys - 1);
-    return std::abs(place - std::round(place)) < 1e-4f;
+    const float nearest = std::round(place);
+    if (!(std::abs(place - nearest) < 1e-4f)) return {};
+    return static_cast<int>(nearest);
 }
 
 }  // namespace
@@ -194,11 +197,10 @@ bool MovingTransform::may_bend(float open, float close, bool deforms) const {
 
 std::vector<float> MovingTransform::unmet_times(float open, float close, int keys) const {
     std::vector<float> unmet;
-    for (const Factor* f = newest_.get(); f; f = f->older.get()) {
-        if (!f->moving || !f->moving->moves_between(open, close)) continue;
-        for (const float time : f->moving->times)
-            if (time > open && time < close && !is_met(time, open, close, keys)) unmet.push_back(time);
-    }
+    for (const Factor* f = newest_.get(); f; f = f->older.get())
+        if (f->moving && f->moving->moves_between(open, close))
+            std::ranges::copy(times_between_keys(f->moving->times, open, close, keys),
+                              std::back_inserter(unmet));
     std::ranges::sort(unmet);
     if (unmet.size() > kMostUnmetTimes) {
         for (size_t i = 0; i < kMostUnmetTimes; ++i) unmet[i] = unmet[i * unmet.size() / kMostUnmetTimes];
@@ -242,13 +244,22 @@ int MovingTransform::wanted_keys(float open, float close) const {
     return keys;
 }
 
-int keys_meeting(const std::vector<float>& times, float open, float close) {
-    for (int keys = 2; keys < kMostKeysForTimes; keys = 2 * keys - 1) {
-        const bool all_met = std::all_of(times.begin(), times.end(), [&](float time) {
-            return time <= open || time >= close || is_met(time, open, close, keys);
-        });
-        if (all_met) return keys;
+std::vector<float> times_between_keys(const std::vector<float>& times, float open, float close, int keys) {
+    std::vector<float> between;
+    std::optional<int> last;
+    for (const float time : times) {
+        if (time <= open || time >= close) continue;
+        const std::optional<int> key = key_of(time, open, close, keys);
+        // Of two times at one key something happens between them.
+        if (!key || key == last) between.push_back(time);
+        last = key;
     }
+    return between;
+}
+
+int keys_meeting(const std::vector<float>& times, float open, float close) {
+    for (int keys = 2; keys < kMostKeysForTimes; keys = 2 * keys - 1)
+        if (times_between_keys(times, open, close, keys).empty()) return keys;
     return kMostKeysForTimes;
 }
 

@@ -77,6 +77,10 @@ class MovingTransform {
     std::shared_ptr<Factor> newest_;  ///< never changed while it is shared
 };
 
+/// Those of a motion's times within the shutter, in their order, that are none of so many even keys, or are
+/// the same key as the time before.
+std::vector<float> times_between_keys(const std::vector<float>& times, float open, float close, int keys);
+
 /// The smallest 2^m + 1 (m <= 4) whose even keys meet all of the times within the shutter; 17 when none does.
 int keys_meeting(const std::vector<float>& times, float open, float close);
 
