@@ -58,4 +58,16 @@ V3f MotionTurn::back(const V3f& direction, float time01) const {
     return V3f(V3d(axes.x.dot(d), axes.y.dot(d), axes.z.dot(d)));
 }
 
+std::optional<V3f> MotionTurn::normal(const V3f& normal, float time01) const {
+    if (is_none() || time01 == 0) return normal;
+    constexpr double kMostStretch = 0.25;
+    const M44d m = pose_at<M44d>(from_first_, time01);
+    const V3d x(m[0][0], m[0][1], m[0][2]), y(m[1][0], m[1][1], m[1][2]), z(m[2][0], m[2][1], m[2][2]);
+    for (const V3d& row : {x, y, z})
+        if (!(std::abs(row.length() - 1) < kMostStretch)) return {};
+    // Planes turn by the inverse transpose, whose columns are these.
+    const V3d turned = y.cross(z) * normal.x + z.cross(x) * normal.y + x.cross(y) * normal.z;
+    return V3f(turned.normalized());
+}
+
 }  // namespace trapeze

@@ -2,6 +2,7 @@
 /// belong to a surface turn with it until its rays go out.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,9 @@ class MotionTurn {
     /// Where a direction of shutter open leads at a time; and the other way round.
     V3f forward(const V3f& direction, float time01) const;
     V3f back(const V3f& direction, float time01) const;
+    /// Where a plane's unit normal of shutter open leads; nothing where the space has become larger or
+    /// smaller by more than a quarter along some axis, so that what is curved may be curved otherwise.
+    std::optional<V3f> normal(const V3f& normal, float time01) const;
 
   private:
     /// Rows are where the axes of shutter open lead, of unit length and at right angles.

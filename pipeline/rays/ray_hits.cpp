@@ -55,7 +55,8 @@ bool RayHits::shows(const RaySegment& ray, const PlacedRay& placed, const RayGri
     if (sides == Sides::OfAttributes)
         sides = attributes.sides == 1 && !faces_the_eye(own.shape()) ? Sides::Front : Sides::Both;
     if (sides == Sides::Both) return true;
-    return from_outside(placed, ray.direction, found) == (sides == Sides::Front);
+    const V3f direction = ray.backwards ? -ray.direction : ray.direction;
+    return from_outside(placed, direction, found) == (sides == Sides::Front);
 }
 
 bool RayHits::counts(const RaySegment& ray, const PlacedRay& placed, const RayGridHit& found) const {

@@ -146,15 +146,15 @@ void GatherCall::add_rays(size_t number, int first, int count) {
     ray.sent = sent_numbers_.data() + number * arguments_.sent.size();
     ray.segment.only = arguments_.only();
     ray.segment.level = asking.level();
-    if (colors_ || !asked_.empty())  // who asks for distances alone asks them of P
-        ray.moved =
-            RayAsker::inwards_of_face(asking, asker_.left_at(aim.P, asking, 0, arguments_.bias.at(lane)));
+    const bool is_distance = !colors_ && asked_.empty();  // which is asked of P
     ray.footprint.width = asker_.width_at(aim.P, asking);
     ray.footprint.spread = ray.segment.spread = spread_of(angle, arguments_.samples_at(lane));
     for (int s = first; s < first + count; ++s) {
         ray.segment.time = motion.time(s);
         const V3f P = aim.P + motion.way(ray.segment.time);
-        ray.segment.left = asker_.left_at(P, asking, ray.segment.time, arguments_.bias.at(lane));
+        ray.segment.left = asker_.left_at(P, asking, motion, ray.segment.time, arguments_.bias.at(lane));
+        const V3f inwards = is_distance ? V3f(0, 0, 0) : RayAsker::inwards_of_face(asking, ray.segment.left);
+        ray.moved = motion.turned(inwards, ray.segment.time, true);
         ray.segment.max = aim.leads() ? arguments_.max_distance_at(lane) : 0;
         if (aim.leads()) ray.end = ray.segment.max;
         const V3f direction = angle == 0                        ? axis

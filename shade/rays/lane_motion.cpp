@@ -29,6 +29,12 @@ V3f LaneMotion::turned_back(const V3f& direction, float time, bool diffuse) cons
     return is_hit_ || diffuse ? turn_.back(direction, time) : direction;
 }
 
+std::optional<V3f> LaneMotion::normal(const V3f& normal, float time) const {
+    if (time == 0 || !grid_ || grid_->P.size() == 1) return normal;
+    if (grid_->primitive->shape_keys.size() > 1) return {};
+    return turn_.normal(normal, time);
+}
+
 float LaneMotion::time(int sample) const {
     return varies_ ? shutter_time(sample, shift_) : only_time_;
 }

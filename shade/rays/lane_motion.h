@@ -32,6 +32,8 @@ class LaneMotion {
     /// diffuse ones alone, which follow the normal: others, the eye's way through glass, stay as they are.
     V3f turned(const V3f& direction, float time, bool diffuse) const;
     V3f turned_back(const V3f& direction, float time, bool diffuse) const;
+    /// Where the surface's unit normal of shutter open leads at a time; nothing where the surface deforms.
+    std::optional<V3f> normal(const V3f& normal, float time) const;
 
   private:
     V3f place(int key) const;

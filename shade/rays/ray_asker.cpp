@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/random.h"
+#include "shade/rays/lane_motion.h"
 
 namespace trapeze {
 namespace {
@@ -44,16 +45,25 @@ float RayAsker::margin_at(const V3f& P, const RayLane& lane, float asked) const 
     return service_.scene->spacing(P) * side(lane.level()) * (displaced ? kBiasOfDisplacedSide : kBiasOfSide);
 }
 
-LeftSurface RayAsker::left_at(const V3f& P, const RayLane& lane, float time, float asked) const {
+LeftSurface RayAsker::left_at(const V3f& P, const RayLane& lane, const LaneMotion& motion, float time,
+                              float asked) const {
     LeftSurface left;
     left.most = margin_at(P, lane, asked);
     if (asked >= 0 || attributes_.rays.bias > 0) return left;
-    if (!(lane.bend < left.most) || (time > 0 && lane.grid->P.size() > 1)) return left;
-    const size_t vertex = lane.lane - lane.first_of_grid;
-    const float rounding = rounding_at(*lane.grid, vertex);
-    if (!((P - lane.grid->P.front().at(vertex)).length() <= rounding)) return left;
-    left.half = lane.bend + rounding, left.normal = lane.grid->Ng.at(vertex);
+    if (!(lane.bend < left.most)) return left;
+    const V3f at_open = normal_at(P - motion.way(time), lane);
+    const std::optional<V3f> normal = motion.normal(at_open, time);
+    if (at_open == V3f(0, 0, 0) || !normal) return left;
+    left.normal = *normal;
+    left.half = lane.bend + rounding_at(*lane.grid, lane.lane - lane.first_of_grid);
     return left;
+}
+
+V3f RayAsker::normal_at(const V3f& P, const RayLane& lane) {
+    if (!lane.grid) return V3f(0, 0, 0);
+    const size_t vertex = lane.lane - lane.first_of_grid;
+    const bool is_there = (P - lane.grid->P.front().at(vertex)).length() <= rounding_at(*lane.grid, vertex);
+    return is_there ? lane.grid->Ng.at(vertex) : V3f(0, 0, 0);
 }
 
 V3f RayAsker::inwards(const RayLane& lane, const LeftSurface& left) {

@@ -13,6 +13,8 @@
 
 namespace trapeze {
 
+class LaneMotion;
+
 /// What calls of a grid's shaders ask. All it refers to must outlive the calls.
 struct RayService {
     const RayScene* scene = nullptr;
@@ -56,8 +58,13 @@ class RayAsker {
     /// How near to P, at most, rays of a lane begin or end: what they meet of a surface there lies within it,
     /// by the size of pixels at P. `asked` below 0: the call does not say.
     float margin_at(const V3f& P, const RayLane& lane, float asked) const;
-    /// How far from P the rays of a lane begin that leave at a time; `asked` as above.
-    LeftSurface left_at(const V3f& P, const RayLane& lane, float time, float asked) const;
+    /// How far from P, which is where the lane's point is at a time, its rays begin that leave then; `asked`
+    /// as above.
+    LeftSurface left_at(const V3f& P, const RayLane& lane, const LaneMotion& motion, float time,
+                        float asked) const;
+    /// Which way the surface faces of a lane's vertex at P, as the shutter opens; 0 where P is somewhere
+    /// else.
+    static V3f normal_at(const V3f& P, const RayLane& lane);
     /// How far within its own grid the rays of a lane begin that is on an edge of the grid (inwards_at()).
     static V3f inwards(const RayLane& lane, const LeftSurface& left);
     /// Of rays that tell what is seen from P: on edges of the face alone, and no farther than a quarter of a

@@ -223,10 +223,11 @@ std::unique_ptr<vm::GatherTurns> RayCalls::gather(Run& run, const Step& step,
 Task<RayCalls::LaneRays> RayCalls::rays_of(const Call& call, std::span<const RayLane> lanes) const {
     LaneRays sent;
     for (const RayLane& lane : lanes) {
-        add_rays(call, lane, sent.rays);
+        add_rays(call, lane, sent);
         sent.ends.push_back(sent.rays.size());
     }
     sent.followed = co_await follow(call, sent.rays);
+    co_await hide_near_ends(call, sent);
     const RayArguments& arguments = call.arguments;
     const bool fades = call.step.op == Op::IndirectDiffuse && arguments.falloff.operand;
     for (size_t i = 0, ray = 0; fades && i < lanes.size(); ++i)
@@ -265,8 +266,39 @@ RayFootprint RayCalls::footprint_of(const Call& call, const RayLane& asking, con
     return ray;
 }
 
+/// The last part of a ray that ends at the surface which asks, where hits may be that surface's own: a ray
+/// from there begins outside of the surface's slab, as rays do that leave it.
+void RayCalls::add_arrival(const Call& call, const RayLane& asking, const RayAim& aim,
+                           const LaneMotion& motion, LaneRays& sent) const {
+    const WalkedRay& whole = sent.rays.back();
+    const float bias = call.arguments.bias.at(asking.lane);
+    const V3f end = call.arguments.towards_at(asking.lane) + motion.way(aim.time);
+    WalkedRay near;
+    RaySegment& segment = near.segment;
+    segment.only = whole.segment.only, segment.level = asking.level(), segment.time = aim.time;
+    segment.backwards = true;
+    segment.direction = -aim.direction;
+    segment.left = asker_.left_at(end, asking, motion, aim.time, bias);
+    segment.min = segment.left.distance(segment.direction);
+    segment.max = std::min(asker_.margin_at(end, asking, bias), aim.length);
+    if (!(segment.min < segment.max)) return;
+    near.moved = motion.turned(RayAsker::inwards(asking, segment.left), aim.time, true);
+    segment.origin = end + near.moved;
+    near.seed = asking.of_ray(-1);
+    sent.arriving.push_back(sent.rays.size() - 1);
+    sent.arrivals.push_back(near);
+}
+
+/// Takes away what does not arrive though nothing far from the surface is in its way.
+Task<> RayCalls::hide_near_ends(const Call& call, LaneRays& sent) const {
+    for (const size_t ray : sent.hidden) sent.rays[ray].through = V3f(0, 0, 0);
+    if (sent.arrivals.empty() || !co_await follow(call, sent.arrivals)) co_return;
+    for (size_t i = 0; i < sent.arrivals.size(); ++i)
+        sent.rays[sent.arriving[i]].through *= sent.arrivals[i].through;
+}
+
 /// A lane's rays; none where it does not know where to.
-void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<WalkedRay>& rays) const {
+void RayCalls::add_rays(const Call& call, const RayLane& asking, LaneRays& sent) const {
     const RayArguments& arguments = call.arguments;
     const size_t lane = asking.lane;
     const std::span<const float> times = call.run.context().ray_times;
@@ -279,7 +311,11 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<Wal
     if (!aim.leads()) return;
     Cone cone(aim.direction, angle);
     const auto look_along = [&] {
-        ray.segment.left = asker_.left_at(aim.P, asking, aim.time, arguments.bias.at(lane));
+        ray.segment.left = asker_.left_at(aim.P, asking, motion, aim.time, arguments.bias.at(lane));
+        const V3f inwards = call.is_distance() ? V3f(0, 0, 0)
+                            : call.is_exact()  ? RayAsker::inwards_of_face(asking, ray.segment.left)
+                                               : RayAsker::inwards(asking, ray.segment.left);
+        ray.moved = motion.turned(inwards, aim.time, true);
         ray.end = ray.segment.max = arguments.max_distance_at(lane);
         if (call.ends_at_point()) {
             const V3f end = aim.P + aim.direction * aim.length;
@@ -290,9 +326,6 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<Wal
         ray.segment.time = aim.time;
     };
     look_along();
-    if (!call.is_distance())
-        ray.moved = call.is_exact() ? RayAsker::inwards_of_face(asking, ray.segment.left)
-                                    : RayAsker::inwards(asking, ray.segment.left);
     const int samples = call.samples_at(lane);
     ray.footprint = footprint_of(call, asking, aim, motion);
     ray.segment.spread = ray.footprint.fastest();
@@ -300,6 +333,13 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<Wal
     const SampleBase base(call.run);
     const bool arrives =
         call.between_points() && asker_.knows_media(asking) && !call.begins_here(lane, motion);
+    const bool ends_here = call.between_points() && !call.begins_here(lane, motion);
+    // Samples of area lights are chosen for how the surface lies then.
+    const bool may_turn_away = call.ends_at_point() && times.empty();
+    const V3f outside = may_turn_away
+                            ? asker_.normal_at(ends_here ? arguments.towards_at(lane) : aim.P, asking)
+                            : V3f(0, 0, 0);
+    const float above = outside.dot(aim.direction);
     const bool by_cosine = call.over_sky() && !arguments.uniform_distribution;
     for (int s = 0; s < samples; ++s) {
         if (const float time = motion.time(s); time != aim.time) {
@@ -316,7 +356,11 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<Wal
         const V3f way = motion.turned_back(ray.segment.direction, ray.segment.time, call.over_sky());
         (arrives ? ray.end_medium : ray.medium) = asker_.medium(asking, arrives ? -way : way);
         ray.seed = asking.of_ray(s);
-        rays.push_back(ray);
+        sent.rays.push_back(ray);
+        // A surface that has turned since the shutter opened, so that light comes to its other side.
+        const V3f seen = motion.turned_back(aim.direction, aim.time, true);
+        if (aim.time > 0 && above * outside.dot(seen) < 0) sent.hidden.push_back(sent.rays.size() - 1);
+        if (ends_here && angle == 0) add_arrival(call, asking, aim, motion, sent);
     }
 }
 

@@ -34,9 +34,13 @@ class RayCalls : public vm::Rays {
     /// The rays of some lanes, one lane's after another's.
     struct LaneRays {
         std::vector<WalkedRay> rays;
-        std::vector<size_t> ends;  ///< behind each lane's last
-        bool followed = false;     ///< else they are too deep to see anything
-        std::vector<V3f> sky;      ///< what is behind each, if anything is asked
+        std::vector<size_t> ends;    ///< behind each lane's last
+        bool followed = false;       ///< else they are too deep to see anything
+        std::vector<V3f> sky;        ///< what is behind each, if anything is asked
+        std::vector<size_t> hidden;  ///< numbers of rays that their own surface is in the way of
+        /// The ends of rays that come to the surface which asks, from there; and the numbers of those rays.
+        std::vector<WalkedRay> arrivals;
+        std::vector<size_t> arriving;
     };
 
     std::vector<RayLane> lanes_of(vm::Run& run, const vm::Step& step, bool uniform);
@@ -44,7 +48,10 @@ class RayCalls : public vm::Rays {
     Task<LaneRays> rays_of(const Call& call, std::span<const RayLane> lanes) const;
     static void tell(const Call& call, const vm::Operand& out, std::span<const RayLane> lanes,
                      const LaneRays& sent, const V3f& nothing);
-    void add_rays(const Call& call, const RayLane& lane, std::vector<WalkedRay>& rays) const;
+    void add_rays(const Call& call, const RayLane& lane, LaneRays& sent) const;
+    void add_arrival(const Call& call, const RayLane& lane, const RayAim& aim, const LaneMotion& motion,
+                     LaneRays& sent) const;
+    Task<> hide_near_ends(const Call& call, LaneRays& sent) const;
     RayFootprint footprint_of(const Call& call, const RayLane& asking, const RayAim& aim,
                               const LaneMotion& motion) const;
     Task<bool> follow(const Call& call, std::span<WalkedRay> rays) const;

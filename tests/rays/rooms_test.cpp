@@ -1,0 +1,63 @@
+/// Closed rooms that we are in, seen by the rays that their own walls send: nothing of what is outside comes
+/// in, also while they move.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/program_harness.h"
+#include "tests/scene_harness.h"
+
+namespace trapeze::testing {
+namespace {
+
+const std::string kStands, kGoes = "MotionBegin [0 1] Translate 0 0 0 Translate .3 .2 .1 MotionEnd ",
+                           kRoomTurns = "MotionBegin [0 1] Rotate 0 1 2 3 Rotate 30 1 2 3 MotionEnd ";
+
+/// The mean of a picture from within a box of 4 by 4 by 4, all of whose walls have a shader s(). `before`:
+/// requests.
+double mean_of_room(const std::string& shaders, const std::string& before) {
+    const WorkFolder folder;
+    const size_t light = shaders.find("light l(");
+    folder.write("s.sl", shaders.substr(0, light));
+    if (light != shaders.npos) folder.write("l.sl", shaders.substr(light));
+    folder.write(
+        "a.rib",
+        "Format 64 64 1 PixelSamples 1 1 PixelFilter \"box\" 1 1 Projection \"perspective\" \"fov\" 70\n"
+        "Shutter 0 1 WorldBegin ShadingInterpolation \"smooth\"\n"
+        "Attribute \"visibility\" \"int diffuse\" 1 \"int transmission\" 1\n"
+        "Attribute \"trace\" \"int samplemotion\" 1\n" +
+            before +
+            "Surface \"s\" Translate 0 0 1 Rotate 30 1 2 0 PointsPolygons [4 4 4 4 4 4] [0 1 3 2 5 4 6 7 1 0 "
+            "4 5 2 3 7 6 0 2 6 4 3 1 5 7] \"P\" [-2 -2 -2 2 -2 -2 -2 2 -2 2 2 -2 -2 -2 2 2 -2 2 -2 2 2 2 2 "
+            "2]\nWorldEnd\n");
+    const auto frames = render_scene((folder / "a.rib").string(), RenderSettings());
+    double sum = 0;
+    for (size_t i = 0; !frames.empty() && i < frames.front().image.rgba.size(); i += 4)
+        sum += frames.front().image.rgba[i];
+    return sum / (64 * 64);
+}
+
+/// All that the walls see is walls.
+TEST(Rooms, WallsSeeNothingButWalls) {
+    const std::string source =
+        "surface s() { normal n = faceforward(normalize(N), I); Ci = 1 - occlusion(P, n, 16); Oi = 1; }";
+    for (const std::string& motion : {kStands, kGoes, kRoomTurns})
+        EXPECT_LT(mean_of_room(source, motion), 3e-4) << motion;
+}
+
+/// Lights all around outside, each 1: at the creases the walls are thinner than a pixel.
+TEST(Rooms, LightsOutsideDoNotShineIn) {
+    const std::string lights =
+        "LightSource \"l\" 1 \"from\" [0 0 9] LightSource \"l\" 2 \"from\" [9 4 3] LightSource \"l\" 3 \"from\" [-7 -7 2] ";
+    for (const std::string ends : {"Ps, from", "from, Ps"}) {
+        const std::string source =
+            "surface s() { normal n = faceforward(normalize(N), I); Ci = 0; Oi = 1; illuminance(P, n, PI / 2) Ci += Cl; }\n"
+            "light l(point from = 0;) { illuminate(from) Cl = transmission(" +
+            ends + "); }";
+        for (const std::string& motion : {kStands, kGoes, kRoomTurns})
+            EXPECT_LT(mean_of_room(source, motion + lights), 4e-3) << ends << ' ' << motion;
+    }
+}
+
+}  // namespace
+}  // namespace trapeze::testing
