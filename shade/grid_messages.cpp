@@ -139,7 +139,7 @@ std::string GridMessages::shader_name(std::string_view kind) {
     if (kind == "surface") return name_of(surface);
     if (kind == "displacement") return name_of(displacement);
     if (kind == "atmosphere") return name_of(atmosphere);
-    return kind.empty() ? running : std::string();
+    return {};
 }
 
 }  // namespace trapeze

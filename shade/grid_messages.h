@@ -22,7 +22,6 @@ class GridMessages : public vm::Messages {
     const Attributes* attributes = nullptr;
     const Primitive* primitive = nullptr;       ///< that the attributes are of; it may be null
     std::span<const ShadingGrid* const> grids;  ///< of the shader that runs; none: it asks for no variables
-    std::string running;                        ///< the name of the shader that runs
 
     bool find(rsl::Op what, std::string_view name, rsl::Type type, const vm::Operand& out,
               std::span<std::string> texts, const vm::Registers* light) override;

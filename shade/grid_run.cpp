@@ -228,7 +228,6 @@ Task<vm::Registers*> GridRun::run_layer(const LayeredShader& shader, size_t laye
     const bool stretched = bound.program().kind != rsl::ShaderKind::Displacement;
     GridFootprints footprints(grids, context_.camera, stretched);
     set_variables(registers, grids, context_, footprints, shaded, all);
-    messages_.running = bound.program().name;
     // What is within another primitive does not know this one's variables.
     messages_.grids = left_ && &shader == volume() ? std::span<const ShadingGrid* const>() : grids;
     // Lights may ask the surface that asks them.
@@ -252,6 +251,8 @@ Task<vm::Registers*> GridRun::run_layer(const LayeredShader& shader, size_t laye
     surroundings.diagnostics = context_.diagnostics;
     surroundings.near_clip = context_.camera.near_clip, surroundings.far_clip = context_.camera.far_clip;
     surroundings.perspective = context_.camera.perspective;
+    surroundings.shutter_open = context_.scene->options.shutter_open;
+    surroundings.shutter_close = context_.scene->options.shutter_close;
     // Shadows ask for opacities: area lights that looked for their own shadows there would never end.
     const auto& lights = group_lamps_                 ? *group_lamps_
                          : grids.front()->for_opacity ? material_.other_lights

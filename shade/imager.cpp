@@ -165,7 +165,6 @@ void Imager::run(int x0, int y, int count, float* rgba) const {
     vm::Registers& registers = machine.registers(shader.executable());
     MapService maps(*impl_->textures, *impl_->context.scene);
     GridMessages messages(impl_->context);
-    messages.running = shader.program().name;
     for (int done = 0; done < count; done += kBatch) {
         const auto pixels = static_cast<size_t>(std::min(kBatch, count - done));
         float* colors = rgba + 4 * static_cast<size_t>(done);

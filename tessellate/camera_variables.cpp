@@ -21,6 +21,17 @@ void for_each_triple(GridVariable& variable, int floats_per_element, F&& transfo
     }
 }
 
+/// What a matrix takes to object space it takes to camera space afterwards.
+void matrices_to_camera_space(const M44f& camera_from_object, GridVariable& variable) {
+    for (size_t plane = 0; plane + 16 <= variable.planes.size(); plane += 16)
+        for (size_t i = 0; i < variable.planes[plane].size(); ++i) {
+            M44f m;
+            for (size_t k = 0; k < 16; ++k) m[k / 4][k % 4] = variable.planes[plane + k][i];
+            m = m * camera_from_object;
+            for (size_t k = 0; k < 16; ++k) variable.planes[plane + k][i] = m[k / 4][k % 4];
+        }
+}
+
 }  // namespace
 
 /// The matrix is that of the first motion key: shading happens once a frame, as the shutter opens, and sees
@@ -52,6 +63,9 @@ void to_camera_space(const M44f& camera_from_object, GridVariable& variable) {
             for_each_triple(variable, 4, [&](const V3f& p, size_t i, Planes planes) {
                 return transform_vector(m, p) + V3f(m[3][0], m[3][1], m[3][2]) * planes[3][i];
             });
+            break;
+        case ValueType::Matrix:
+            matrices_to_camera_space(m, variable);
             break;
         default:
             break;

@@ -108,14 +108,24 @@ RegisterId Generator::builtin_value(const Expression& e, std::optional<RegisterI
     return result;
 }
 
+/// The surface's own u or v, which derivatives are by.
+RegisterId Generator::surface_parameter(std::string_view name, std::string_view hidden_name) {
+    const auto named = by_name_.find(name);
+    const bool is_taken =
+        named != by_name_.end() && program_->reg(named->second).kind != Register::Kind::Global;
+    return global(is_taken || shader_.kind == ShaderKind::Light ? hidden_name : name, Base::Float);
+}
+
 /// Predefined variables that a function reads without being given them. In front where the operation's row in
 /// op_table.def has P first, otherwise behind the arguments. Lights know no Ng of what they shine on: what
 /// they turn to the eye is its own reference.
 void Generator::add_unnamed_inputs(Op op, Ids& inputs) {
     if (op_traits::has(op, op_traits::kNeedsNg) && inputs.size() == 2)
         inputs.push_back(shader_.kind == ShaderKind::Light ? inputs.front() : global("Ng", Base::Normal));
-    if (op_traits::has(op, op_traits::kNeedsUV))
-        for (const char* parameter : {"u", "v"}) inputs.push_back(global(parameter, Base::Float));
+    if (op_traits::has(op, op_traits::kNeedsUV)) {
+        inputs.push_back(surface_parameter("u", kSurfaceU));
+        inputs.push_back(surface_parameter("v", kSurfaceV));
+    }
     if (op == Op::RayWay) {
         inputs.push_back(global(kRayOrigin, Base::Point));
         inputs.push_back(global(kRayWay, Base::Vector));

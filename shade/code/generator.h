@@ -83,6 +83,7 @@ class Generator {
     // Calls: generate_calls.cpp. The analysis has chosen the overload and converted the arguments.
     RegisterId call_value(const Expression& e, std::optional<RegisterId> into);
     RegisterId builtin_value(const Expression& e, std::optional<RegisterId> into);
+    RegisterId surface_parameter(std::string_view name, std::string_view hidden_name);
     void add_unnamed_inputs(Op op, Ids& inputs);
     std::optional<RegisterId> rewritten_builtin(const Expression& e, std::optional<RegisterId> into);
     RegisterId set_part(const Expression& e);

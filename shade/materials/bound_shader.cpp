@@ -49,8 +49,16 @@ std::string_view type_name(Base base) {
     return kNames[static_cast<size_t>(base)];
 }
 
-/// Turns a triple from shader to camera space, in place; colours stay.
+/// Turns a triple or a matrix from shader to camera space, in place; colours stay. What a matrix takes to
+/// shader space it takes to camera space afterwards, as `matrix "shader" m` does.
 void to_camera(float* values, Base base, const M44f& camera_from_shader) {
+    if (base == Base::Matrix) {
+        M44f m;
+        std::copy_n(values, 16, m.getValue());
+        m = m * camera_from_shader;
+        std::copy_n(m.getValue(), 16, values);
+        return;
+    }
     const V3f v(values[0], values[1], values[2]);
     V3f out = v;
     if (base == Base::Point)
@@ -186,8 +194,8 @@ bool BoundShader::take_from_instance(const rsl::ProgramParameter& parameter, Val
     }
     value.floats.assign(given->floats.begin(),
                         given->floats.begin() + static_cast<std::ptrdiff_t>(elements * width));
-    for (size_t e = 0; e < elements && width == 3; ++e)
-        to_camera(value.floats.data() + e * 3, base, instance_.camera_from_shader);
+    for (size_t e = 0; e < elements && width >= 3; ++e)
+        to_camera(value.floats.data() + e * width, base, instance_.camera_from_shader);
     return true;
 }
 

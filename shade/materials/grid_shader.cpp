@@ -74,6 +74,20 @@ void load_ray_origin(const Loader& loader, const Operand& out, bool perspective)
     });
 }
 
+/// How fast points move as the shutter opens, in camera space a unit of time.
+void load_velocity(const Loader& loader, const Operand& out, float shutter) {
+    std::vector<float> plane;
+    loader.load(out, 3, [&](const ShadingGrid& grid, int k) -> const std::vector<float>& {
+        plane.assign(grid.vertex_count(), 0.0f);
+        const size_t keys = grid.P.size();
+        if (keys < 2 || !(shutter > 0)) return plane;
+        const std::vector<float>&from = grid.P[0].c[k], &to = grid.P[1].c[k];
+        const float times = static_cast<float>(keys - 1) / shutter;
+        for (size_t i = 0; i < plane.size(); ++i) plane[i] = (to[i] - from[i]) * times;
+        return plane;
+    });
+}
+
 /// Sets one predefined variable (RISpec 3.2, tables 12.1 to 12.5). Spaces are the grids', camera space; the
 /// eye is at the origin.
 void set_variable(const Loader& loader, vm::Registers& registers, const vm::StartValue& value,
@@ -107,8 +121,10 @@ void set_variable(const Loader& loader, vm::Registers& registers, const vm::Star
         case Predefined::Oi:
             return loader.load(out, shaded ? &ShadingGrid::Oi : &ShadingGrid::Os);
         case Predefined::u:
+        case Predefined::SurfaceU:
             return loader.load(out, &ShadingGrid::u);
         case Predefined::v:
+        case Predefined::SurfaceV:
             return loader.load(out, &ShadingGrid::v);
         case Predefined::s:
             return loader.load(out, &ShadingGrid::s);
@@ -128,6 +144,8 @@ void set_variable(const Loader& loader, vm::Registers& registers, const vm::Star
             const float open = options.shutter_close - options.shutter_open;
             return registers.set_uniform(value.id, &open);
         }
+        case Predefined::dPdtime:
+            return load_velocity(loader, out, options.shutter_close - options.shutter_open);
         case Predefined::RayOrigin:
             return load_ray_origin(loader, out, context.camera.perspective);
         // From the eye to P, or from where a ray begins; from the plane of the eye when the projection is
@@ -142,7 +160,7 @@ void set_variable(const Loader& loader, vm::Registers& registers, const vm::Star
             });
         }
         case Predefined::Ns:
-        case Predefined::Other: {  // E, L, Cl, dPdtime...: blocks set them, or nothing does
+        case Predefined::Other: {  // E, L, Cl...: blocks set them, or nothing does
             const float zeros[16] = {};
             if (rsl::width_of(registers.reg(value.id).type.base) > 0) registers.set_uniform(value.id, zeros);
         }

@@ -124,6 +124,29 @@ void LightRig::give(vm::Registers& registers, std::span<const Taken> taken, cons
     }
 }
 
+/// What is the same for all points.
+std::optional<float> LightRig::number_of(vm::Predefined variable) const {
+    using vm::Predefined;
+    if (variable == Predefined::time) return surroundings_->shutter_open;
+    if (variable == Predefined::dtime) return surroundings_->shutter_close - surroundings_->shutter_open;
+    if (variable == Predefined::ncomps) return 3.0f;
+    return {};
+}
+
+/// Parameters of the surface that is lit, and how far they change over what a vertex stands for: what
+/// patterns in lights are filtered by.
+bool LightRig::is_of_footprint(vm::Predefined variable, vm::Operand& plane) const {
+    using vm::Predefined;
+    const bool is_parameter = variable == Predefined::SurfaceU || variable == Predefined::SurfaceV;
+    if (!is_parameter && variable != Predefined::du && variable != Predefined::dv) return false;
+    const vm::Footprint& at = surroundings_->footprints->get();
+    if (is_parameter)
+        plane = variable == Predefined::SurfaceU ? at.u : at.v;
+    else
+        plane = planes_of(const_cast<float*>(variable == Predefined::du ? at.du : at.dv), lanes_);
+    return plane.data != nullptr;
+}
+
 void LightRig::set_variables(vm::Registers& registers, const Lamp& lamp, const vm::Operand& P) const {
     using vm::Predefined;
     for (const vm::StartValue& value : registers.executable().start_values()) {
@@ -142,6 +165,10 @@ void LightRig::set_variables(vm::Registers& registers, const Lamp& lamp, const v
                             lanes_ * sizeof(float));
         } else if (variable == Predefined::RayOrigin || variable == Predefined::RayWay) {
             set_ray(operand, variable == Predefined::RayWay, P);
+        } else if (const std::optional<float> number = number_of(variable)) {
+            registers.set_uniform(id, &*number);
+        } else if (vm::Operand plane; surroundings_->footprints && is_of_footprint(variable, plane)) {
+            copy_operand(plane, 1, lanes_, operand);
         } else if (rsl::width_of(registers.reg(id).type.base) > 0) {
             const float zeros[16] = {};
             registers.set_uniform(id, zeros);

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "shade/materials/area_samples.h"
@@ -57,6 +58,8 @@ class LightRig : public vm::Lights {
     Task<> run(size_t light, Slot& slot, const vm::LightRequest& request, std::span<const Taken> taken);
     void tell(const Turn& turn, const vm::LightOutput& output, const vm::Registers& registers, Slot& slot);
     void set_variables(vm::Registers& registers, const Lamp& lamp, const vm::Operand& P) const;
+    std::optional<float> number_of(vm::Predefined variable) const;
+    bool is_of_footprint(vm::Predefined variable, vm::Operand& plane) const;
     void set_ray(const vm::Operand& out, bool way, const vm::Operand& P) const;
 
     vm::Machine* machine_ = nullptr;

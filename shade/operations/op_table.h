@@ -72,6 +72,9 @@ inline constexpr std::string_view kTracedMap = "raytrace";
 /// In front of a map's name: the category of gather() that asks the map, and sends no rays.
 inline constexpr std::string_view kOfEnvironment = "environment:";
 
+/// u and v of the surface that is shaded, under names that no source has: for derivatives in lights, whose
+/// own u and v are others, and where a parameter is called u or v.
+inline constexpr std::string_view kSurfaceU = "surface:u", kSurfaceV = "surface:v";
 /// Predefined variables that no source can name, inputs of Op::RayWay.
 inline constexpr std::string_view kRayOrigin = "ray:origin", kRayWay = "ray:way";
 

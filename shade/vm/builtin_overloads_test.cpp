@@ -64,9 +64,7 @@ class KnownMessages : public Messages {
         if (name == "known") std::fill_n(out.data, kLanes, 0.25f);
         return name == "known";
     }
-    std::string shader_name(std::string_view kind) override {
-        return kind.empty() ? "shader" : "shader " + std::string(kind);
-    }
+    std::string shader_name(std::string_view kind) override { return "shader " + std::string(kind); }
 };
 
 class CountingMaps : public Maps {

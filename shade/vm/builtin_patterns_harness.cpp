@@ -227,7 +227,7 @@ std::vector<BuiltinCase> asking_cases() {
     cases.insert(
         cases.end(),
         {
-            {"string a = shadername(); r = a == \"shader\" ? X : -1;", TRAPEZE_GIVES(x)},
+            {"string a = shadername(); r = a == \"test\" ? X : -1;", TRAPEZE_GIVES(x)},
             {"string a = shadername(\"light\"); r = a == \"shader light\" ? X : -1;", TRAPEZE_GIVES(x)},
             {"r = bake(\"f\", X, Y, 1) + bake3d(\"f\", \"\", P, N) + texture3d(\"f\", P, N) + X;",
              TRAPEZE_GIVES(x)},

@@ -169,6 +169,7 @@ class Messages {
     /// `light`: the variables of the light of the illuminance block which asks; null where there is none.
     virtual bool find(rsl::Op what, std::string_view name, rsl::Type type, const Operand& out,
                       std::span<std::string> texts, const Registers* light) = 0;
+    /// Of a kind that is named; a shader knows its own name.
     virtual std::string shader_name(std::string_view kind) = 0;
 };
 
@@ -198,8 +199,9 @@ struct Context {
     /// sampled.
     std::span<const float> ray_times = {};
     Diagnostics* diagnostics = nullptr;
-    float near_clip = 0, far_clip = 1;  ///< camera-space z
-    bool perspective = true;            ///< the camera's
+    float near_clip = 0, far_clip = 1;          ///< camera-space z
+    float shutter_open = 0, shutter_close = 0;  ///< times of the scene
+    bool perspective = true;                    ///< the camera's
 };
 
 }  // namespace trapeze::vm

@@ -36,8 +36,10 @@ void is_light_category(Run& run, const Step& step, std::span<const Operand> oper
 void shader_name(Run& run, const Step& step, std::span<const Operand>) {
     Registers& registers = run.registers();
     const std::string kind = step.count > step.outputs ? registers.text_input(step, 0) : std::string();
-    registers.text(registers.register_of(step, 0)) =
-        run.context().messages ? run.context().messages->shader_name(kind) : std::string();
+    registers.text(registers.register_of(step, 0)) = kind.empty() ? run.registers().program().name
+                                                     : run.context().messages
+                                                         ? run.context().messages->shader_name(kind)
+                                                         : std::string();
 }
 
 constexpr ContextRow kMessageRows[] = {

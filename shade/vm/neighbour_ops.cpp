@@ -92,6 +92,16 @@ void filter_width(Run& run, const Operand& x, const Operand& out) {
         out.data[i] = std::abs(out.data[i] * f.du[i]) + std::abs(by_v[i] * f.dv[i]);
 }
 
+/// The ends of a range from x to x2, made wider about its middle.
+void widen(size_t lanes, const Operand& x, const Operand& x2, const Operand& scale, const Operand& from,
+           const Operand& to) {
+    for (size_t i = 0; i < lanes; ++i) {
+        const float a = Run::at(x, 0, i), b = Run::at(x2, 0, i);
+        const float middle = (a + b) / 2, half = (b - a) / 2 * Run::at(scale, 0, i);
+        from.data[i] = middle - half, to.data[i] = middle + half;
+    }
+}
+
 /// edge, x [, x2] [, name, value, ...]; of the named ones, "width" counts, also as "swidth". A uniform x has
 /// no width: the step is then a sharp one, as step() has it.
 void filtered_step(Run& run, const Step& step, std::span<const Operand> operands) {
@@ -99,13 +109,21 @@ void filtered_step(Run& run, const Step& step, std::span<const Operand> operands
         return run.registers().reg(run.registers().register_of(step, i)).type.base == rsl::Base::String;
     };
     const size_t lanes = operands[0].lane_mask ? run.lanes() : kLanes;
-    if (step.count > 3 && !is_text(3))
-        return filter_step_between(lanes, operands[1], operands[2], operands[3], operands[0]);
+    const bool is_range = step.count > 3 && !is_text(3);
     const Operand* scales = nullptr;
-    for (size_t i = 3; i + 1 < step.count; i += 2) {
+    for (size_t i = is_range ? 4 : 3; i + 1 < step.count; i += 2) {
         if (!is_text(i) || is_text(i + 1)) continue;
         const std::string& name = run.registers().text(run.registers().register_of(step, i));
         if (name == "width" || name == "swidth") scales = &operands[i + 1];
+    }
+    if (is_range && !scales)
+        return filter_step_between(lanes, operands[1], operands[2], operands[3], operands[0]);
+    if (is_range) {
+        Operand from, to;
+        from.data = run.scratch(2), to.data = from.data + run.lanes();
+        from.lane_mask = to.lane_mask = ~size_t{0};
+        widen(lanes, operands[2], operands[3], *scales, from, to);
+        return filter_step_between(lanes, operands[1], from, to, operands[0]);
     }
     Operand widths;
     widths.data = run.scratch(1);

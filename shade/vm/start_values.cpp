@@ -33,6 +33,9 @@ constexpr std::pair<std::string_view, Predefined> kNames[] = {{"P", Predefined::
                                                               {"time", Predefined::time},
                                                               {"dtime", Predefined::dtime},
                                                               {"ncomps", Predefined::ncomps},
+                                                              {"dPdtime", Predefined::dPdtime},
+                                                              {rsl::kSurfaceU, Predefined::SurfaceU},
+                                                              {rsl::kSurfaceV, Predefined::SurfaceV},
                                                               {rsl::kRayOrigin, Predefined::RayOrigin},
                                                               {rsl::kRayWay, Predefined::RayWay}};
 

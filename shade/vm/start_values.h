@@ -9,7 +9,8 @@
 namespace trapeze::vm {
 
 /// RISpec 3.2, tables 12.1 to 12.5; RayOrigin and RayWay: where the ray began that has hit the point, and its
-/// way from there, which rayinfo() tells; Other: what the renderer has no value for, and is zero.
+/// way from there, which rayinfo() tells; SurfaceU and SurfaceV: what derivatives are by; Other: what the
+/// renderer has no value for, and is zero.
 enum class Predefined : uint8_t {
     P,
     Ps,
@@ -32,8 +33,11 @@ enum class Predefined : uint8_t {
     ncomps,
     time,
     dtime,
+    dPdtime,
     RayOrigin,
     RayWay,
+    SurfaceU,
+    SurfaceV,
     Other
 };
 
