@@ -2,8 +2,11 @@
 /// the heap, and the thread's stack is the same at every depth. Rays whose hits send rays are followed so.
 #pragma once
 
+#include <array>
 #include <coroutine>
+#include <cstddef>
 #include <exception>
+#include <new>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -17,8 +20,67 @@ struct Line {
     std::coroutine_handle<> next;
 };
 
+/// Memory of tasks that have ended, a thread's, for the next ones: shading a grid is half a dozen tasks,
+/// which take less time than as many calls of the allocator.
+class FreeFrames {
+  public:
+    FreeFrames() = default;
+    FreeFrames(const FreeFrames&) = delete;
+    FreeFrames& operator=(const FreeFrames&) = delete;
+    ~FreeFrames() {
+        for (List& list : lists_)
+            while (list.first) ::operator delete(std::exchange(list.first, list.first->next));
+    }
+
+    void* take(size_t bytes) {
+        const size_t number = list_of(bytes);
+        if (number >= kLists) return ::operator new(bytes);
+        List& list = lists_[number];
+        if (!list.first) return ::operator new((number + 1) * kStep);
+        --list.count;
+        return std::exchange(list.first, list.first->next);
+    }
+    void give_back(void* frame, size_t bytes) noexcept {
+        const size_t number = list_of(bytes);
+        if (number >= kLists || lists_[number].count == kMost) return ::operator delete(frame);
+        List& list = lists_[number];
+        list.first = new (frame) Free{list.first};
+        ++list.count;
+    }
+
+  private:
+    struct Free {
+        Free* next;
+    };
+    struct List {
+        Free* first = nullptr;
+        size_t count = 0;
+    };
+    /// Frames of up to 64, 128, ... 2048 bytes.
+    static constexpr size_t kStep = 64, kLists = 32;
+    /// So many of each size are kept; none where sanitizers are to see what becomes of them.
+#if defined(TRAPEZE_SANITIZED)
+    static constexpr size_t kMost = 0;
+#else
+    static constexpr size_t kMost = 32;
+#endif
+    static size_t list_of(size_t bytes) {
+        return (bytes - 1) / kStep;
+    }
+
+    std::array<List, kLists> lists_{};
+};
+
+inline FreeFrames& free_frames() {
+    static thread_local FreeFrames frames;
+    return frames;
+}
+
 /// What all tasks keep.
 struct Promise {
+    static void* operator new(size_t bytes) { return free_frames().take(bytes); }
+    static void operator delete(void* frame, size_t bytes) noexcept { free_frames().give_back(frame, bytes); }
+
     /// Goes on with the task that waits for the one that has ended.
     struct End {
         bool await_ready() const noexcept { return false; }
