@@ -30,7 +30,7 @@ V3f LaneMotion::turned_back(const V3f& direction, float time, bool diffuse) cons
 }
 
 std::optional<V3f> LaneMotion::normal(const V3f& normal, float time) const {
-    if (time == 0 || !grid_ || grid_->P.size() == 1) return normal;
+    if (time == 0 || !grid_) return normal;
     if (grid_->primitive->shape_keys.size() > 1) return {};
     return turn_.normal(normal, time);
 }
