@@ -22,14 +22,17 @@ struct Line {
 
 /// Memory of tasks that have ended, a thread's, for the next ones: shading a grid is half a dozen tasks,
 /// which take less time than as many calls of the allocator.
-class FreeFrames {
+class FreeTasks {
   public:
-    FreeFrames() = default;
-    FreeFrames(const FreeFrames&) = delete;
-    FreeFrames& operator=(const FreeFrames&) = delete;
-    ~FreeFrames() {
-        for (List& list : lists_)
+    FreeTasks() = default;
+    FreeTasks(const FreeTasks&) = delete;
+    FreeTasks& operator=(const FreeTasks&) = delete;
+    /// Tasks that end later in the thread are taken for more than enough.
+    ~FreeTasks() {
+        for (List& list : lists_) {
             while (list.first) ::operator delete(std::exchange(list.first, list.first->next));
+            list.count = kMost;
+        }
     }
 
     void* take(size_t bytes) {
@@ -71,15 +74,15 @@ class FreeFrames {
     std::array<List, kLists> lists_{};
 };
 
-inline FreeFrames& free_frames() {
-    static thread_local FreeFrames frames;
+inline FreeTasks& free_tasks() {
+    static thread_local FreeTasks frames;
     return frames;
 }
 
 /// What all tasks keep.
 struct Promise {
-    static void* operator new(size_t bytes) { return free_frames().take(bytes); }
-    static void operator delete(void* frame, size_t bytes) noexcept { free_frames().give_back(frame, bytes); }
+    static void* operator new(size_t bytes) { return free_tasks().take(bytes); }
+    static void operator delete(void* frame, size_t bytes) noexcept { free_tasks().give_back(frame, bytes); }
 
     /// Goes on with the task that waits for the one that has ended.
     struct End {

@@ -88,6 +88,13 @@ TEST(MotionTimes, CloseTogetherAreAJump) {
         EXPECT_NEAR(seen[47], .5f, .03f);  // at .97
         EXPECT_NEAR(seen[34], 0, .02f);
     }
+    // As the shutter opens, and as it closes.
+    const BarTimes at_open{{"0", .7}, {".00001", -1}, {"1", -1}},
+        at_close{{"0", .7}, {".99999", .7}, {"1", -1}};
+    for (const std::string& world : {deformed(at_open), translated(at_open, bar(0))})
+        EXPECT_GT(alphas_of("", world)[20], .95f);
+    for (const std::string& world : {deformed(at_close), translated(at_close, bar(0))})
+        EXPECT_GT(alphas_of("", world)[47], .95f);
 }
 
 /// The edge goes from 0 to .8 at an even speed, though nothing else moves.

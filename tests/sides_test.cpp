@@ -10,10 +10,9 @@ namespace trapeze::testing {
 namespace {
 
 /// The picture of a world from z = -5, 2 by 2 units; `camera`: requests before the world.
-Image picture_of_sides(const std::string& camera, const std::string& world) {
+Image picture_of_sides(const std::string& camera, const std::string& world, const std::string& shader = "") {
     const WorkFolder folder;
-    folder.write("shadowed.sl",
-                 "surface shadowed() { Ci = transmission(P, P + vector \"world\" (3, 0, -3)); Oi = 1; }");
+    folder.write("shadowed.sl", shader);
     folder.write("a.rib",
                  "Format 32 32 1 PixelSamples 4 4 PixelFilter \"box\" 1 1 ScreenWindow -1 1 -1 1\n"
                  "Projection \"orthographic\" Translate 0 0 5 " +
@@ -67,29 +66,46 @@ TEST(Sides, OfASolidAreThoseOfTheWhole) {
         EXPECT_FLOAT_EQ(seen("Sides 2 " + space, shell), 1 - .0625f);
         EXPECT_FLOAT_EQ(seen("Sides 1 " + space, shell), 1 - .25f);
     }
-    // An opaque one that begins before the picture does has a front alone.
-    const auto cut = [](const std::string& sides) {
-        return mean_alpha(picture_of_sides("Clipping 4.9 100 ",
-                                           sides + "SolidBegin \"primitive\" Sphere .5 -.5 .5 360 SolidEnd"));
+    // Of an opaque one that begins before the picture does the inside is left: its back alone.
+    const auto cut = [](const std::string& before) {
+        return mean_alpha(picture_of_sides(
+            "Clipping 4.9 100 ", before + "SolidBegin \"primitive\" Sphere .5 -.5 .5 360 SolidEnd"));
     };
-    EXPECT_NEAR(cut("Sides 2 "), kDisk, 0.004f);
-    EXPECT_LT(cut("Sides 1 "), 0.02f);
+    const std::string inside = "Orientation \"inside\" ";
+    for (const std::string space : {"", "Scale -1 1 1 "}) {
+        EXPECT_NEAR(cut("Sides 2 " + space), kDisk, 0.004f);
+        EXPECT_LT(cut("Sides 1 " + space), 0.02f);
+        EXPECT_NEAR(cut("Sides 1 " + inside + space), kDisk, 0.004f);
+        EXPECT_NEAR(cut("Sides 1 ReverseOrientation " + space), kDisk, 0.004f);
+        EXPECT_LT(cut("Sides 1 " + inside + "ReverseOrientation " + space), 0.02f);
+    }
 }
 
-/// A floor from which rays go through a ball beside it, which we do not see in front of the middle.
+/// Light that goes out of a ball, which we do not see, meets its back alone; light that comes in meets it
+/// where it is asked for from the lamp, and where both its ends are outside both.
 TEST(Sides, OfASolidHoldForRays) {
-    const auto lit = [](const std::string& sides) {
+    const auto lit = [](const std::string& ends, const std::string& sides) {
+        const std::string shader =
+            "surface shadowed() { point in = P, out = P + vector \"world\" (3, 0, -3), beyond = P "
+            "- vector \"world\" (3, 0, -3); Ci = transmission(" +
+            ends + "); Oi = 1; }";
         return middle_of(
-            picture_of_sides(
-                "",
-                "Surface \"shadowed\" Polygon \"P\" [-.2 -.2 0 .2 -.2 0 .2 .2 0 -.2 .2 0] "
-                "Surface \"constant\" Attribute \"visibility\" \"int transmission\" 1 Translate 1.5 0 "
-                "-1.5 Opacity .5 .5 .5 " +
-                    sides + "SolidBegin \"primitive\" Sphere .4 -.4 .4 360 SolidEnd"),
+            picture_of_sides("",
+                             "Surface \"shadowed\" Polygon \"P\" [-.2 -.2 0 .2 -.2 0 .2 .2 0 -.2 .2 0] "
+                             "Surface \"constant\" Attribute \"visibility\" \"int transmission\" 1 "
+                             "\"int camera\" 0 Opacity .5 .5 .5 " +
+                                 sides + "SolidBegin \"primitive\" Sphere .4 -.4 .4 360 SolidEnd",
+                             shader),
             0);
     };
-    EXPECT_FLOAT_EQ(lit("Sides 2 "), .25f);
-    EXPECT_FLOAT_EQ(lit("Sides 1 "), .5f);
+    const std::string inside = "Orientation \"inside\" ";
+    EXPECT_FLOAT_EQ(lit("in, out", "Sides 2 "), .5f);
+    EXPECT_FLOAT_EQ(lit("in, out", "Sides 1 "), 1);
+    EXPECT_FLOAT_EQ(lit("in, out", "Sides 1 " + inside), .5f);
+    EXPECT_FLOAT_EQ(lit("out, in", "Sides 1 "), .5f);
+    EXPECT_FLOAT_EQ(lit("out, in", "Sides 1 " + inside), 1);
+    EXPECT_FLOAT_EQ(lit("out, beyond", "Sides 2 "), .25f);
+    EXPECT_FLOAT_EQ(lit("out, beyond", "Sides 1 "), .5f);
 }
 
 }  // namespace

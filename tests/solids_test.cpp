@@ -60,8 +60,8 @@ struct BallScene {
             tessellation.dice(i, grid, scratch);
             grid.Ci = grid.Cs, grid.Oi = grid.Os;
             int64_t not_finite = 0;
-            const bool cut = may_be_cut(scene.scene, *grid.primitive);
-            grids.grids.push_back(pack_grid(grid, arena, &not_finite, {cut, cut}));
+            grids.grids.push_back(
+                pack_grid(grid, arena, &not_finite, pack_options(scene.scene, *grid.primitive)));
         }
     }
 

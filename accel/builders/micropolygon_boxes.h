@@ -17,7 +17,7 @@ inline MicropolygonId micropolygon_of_grid(size_t grid, const GridShape& shape, 
             static_cast<uint8_t>(i / shape.nu)};
 }
 
-/// Writes the boxes of a grid's micropolygons in some axes, at a time of [0, 1], row by row (u fastest) into
+/// Writes the boxes of a grid's micropolygons in some axes, at a time of [0, 1], row by row (u fastest), into
 /// nu
 /// * nv items of weight 1, whose ids count from `first_id`.
 void boxes_of_grid(const Grid& grid, const Axes& axes, float time01, uint32_t first_id, SahItem* items);

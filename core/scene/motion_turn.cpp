@@ -65,6 +65,8 @@ std::optional<V3f> MotionTurn::normal(const V3f& normal, float time01) const {
     const V3d x(m[0][0], m[0][1], m[0][2]), y(m[1][0], m[1][1], m[1][2]), z(m[2][0], m[2][1], m[2][2]);
     for (const V3d& row : {x, y, z})
         if (!(std::abs(row.length() - 1) < kMostStretch)) return {};
+    for (const double skew : {x.dot(y), y.dot(z), z.dot(x)})
+        if (!(std::abs(skew) < kMostStretch)) return {};
     // Planes turn by the inverse transpose, whose columns are these.
     const V3d turned = y.cross(z) * normal.x + z.cross(x) * normal.y + x.cross(y) * normal.z;
     return V3f(turned.normalized());

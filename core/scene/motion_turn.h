@@ -24,7 +24,8 @@ class MotionTurn {
     V3f forward(const V3f& direction, float time01) const;
     V3f back(const V3f& direction, float time01) const;
     /// Where a plane's unit normal of shutter open leads; nothing where the space has become larger or
-    /// smaller by more than a quarter along some axis, so that what is curved may be curved otherwise.
+    /// smaller by more than a quarter along some axis, or skew, so that what is curved may be curved
+    /// otherwise.
     std::optional<V3f> normal(const V3f& normal, float time01) const;
 
   private:

@@ -57,5 +57,26 @@ TEST(MotionTurn, TakesTheCamerasOwnMotionOut) {
     expect_close(turn.forward(V3f(1, 0, 0), 1), V3f(std::cos(0.4f), -std::sin(0.4f), 0));
 }
 
+/// A plane along x and y that is drawn out along x tips less than its points do; beyond a quarter nothing is
+/// known.
+TEST(MotionTurn, TakesPlanesAlong) {
+    const MotionTurn turn(turning({0, 10, 20}), 3, {});
+    const float angle = 20 * .5f * static_cast<float>(M_PI) / 180;
+    expect_close(*turn.normal(V3f(1, 0, 0), .5f), V3f(std::cos(angle), std::sin(angle), 0));
+    EXPECT_EQ(*turn.normal(V3f(0, .6f, .8f), 0), V3f(0, .6f, .8f));
+    EXPECT_EQ(*MotionTurn(turning({30, 30}), 2, {}).normal(V3f(0, 0, 1), .5f), V3f(0, 0, 1));
+    const auto drawn_out = [](const M44f& end) {
+        Primitive primitive;
+        primitive.camera_from_object = {M44f(), end};
+        return MotionTurn(primitive, 2, {}).normal(V3f(1, 0, 1).normalized(), 1);
+    };
+    M44f longer, much_longer, skewed;
+    longer[0][0] = 1.2f, much_longer[0][0] = 1.3f, skewed[0][1] = .6f, skewed[0][0] = .8f;
+    ASSERT_TRUE(drawn_out(longer));
+    expect_close(*drawn_out(longer), V3f(1 / 1.2f, 0, 1).normalized());
+    EXPECT_FALSE(drawn_out(much_longer));
+    EXPECT_FALSE(drawn_out(skewed)) << "of unit length along each axis, but not across";
+}
+
 }  // namespace
 }  // namespace trapeze

@@ -222,7 +222,7 @@ struct ClippingPlane {
         V3f normal;
         float distance = 0;
     };
-    /// At kHeldKeys even keys of the shutter (poses.h), linear in between. Empty: the plane stays.
+    /// At kMaxKeyCount even keys of the shutter, linear in between. Empty: the plane stays.
     std::vector<Key> keys{};
 };
 

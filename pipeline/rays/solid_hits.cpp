@@ -14,12 +14,13 @@ float behind(float distance) {
 }
 
 /// Whether a ray wants the hit: by the solid's own sides.
-bool is_wanted(const RayFilter* filter, const RaySurfaceHit& hit, const Primitive& primitive) {
+bool is_wanted(const RaySegment& ray, const RaySurfaceHit& hit, const Primitive& primitive) {
     using Sides = RayFilter::Sides;
-    if (filter && !filter->admits(hit.attributes->groups)) return false;
-    const Sides sides = filter ? filter->sides : Sides::OfAttributes;
-    if (sides == Sides::OfAttributes) return sees_border(primitive, hit.from_outside);
-    return sides == Sides::Both || hit.from_outside == (sides == Sides::Front);
+    if (ray.only && !ray.only->admits(hit.attributes->groups)) return false;
+    const Sides sides = ray.only ? ray.only->sides : Sides::OfAttributes;
+    const bool enters = hit.from_outside != ray.backwards;
+    if (sides == Sides::OfAttributes) return sees_border(primitive, enters);
+    return sides == Sides::Both || enters == (sides == Sides::Front);
 }
 
 }  // namespace
@@ -46,7 +47,7 @@ std::optional<RaySurfaceHit> SolidHits::nearest(const RaySegment& ray, const Fin
         if (solid >= 0) {
             if (!state.cross(solid)) continue;
             hit.from_outside = state.whole_holds(solid);
-            if (!is_wanted(ray.only, hit, scene_.primitives[hit.primitive])) continue;
+            if (!is_wanted(ray, hit, scene_.primitives[hit.primitive])) continue;
         }
         return hit;
     }

@@ -135,16 +135,14 @@ std::optional<float> LightRig::number_of(vm::Predefined variable) const {
 
 /// Parameters of the surface that is lit, and how far they change over what a vertex stands for: what
 /// patterns in lights are filtered by.
-bool LightRig::is_of_footprint(vm::Predefined variable, vm::Operand& plane) const {
+std::optional<vm::Operand> LightRig::footprint_plane(vm::Predefined variable) const {
     using vm::Predefined;
     const bool is_parameter = variable == Predefined::SurfaceU || variable == Predefined::SurfaceV;
-    if (!is_parameter && variable != Predefined::du && variable != Predefined::dv) return false;
+    if (!is_parameter && variable != Predefined::du && variable != Predefined::dv) return {};
+    if (!surroundings_->footprints) return {};
     const vm::Footprint& at = surroundings_->footprints->get();
-    if (is_parameter)
-        plane = variable == Predefined::SurfaceU ? at.u : at.v;
-    else
-        plane = planes_of(const_cast<float*>(variable == Predefined::du ? at.du : at.dv), lanes_);
-    return plane.data != nullptr;
+    if (is_parameter) return variable == Predefined::SurfaceU ? at.u : at.v;
+    return planes_of(const_cast<float*>(variable == Predefined::du ? at.du : at.dv), lanes_);  // an input
 }
 
 void LightRig::set_variables(vm::Registers& registers, const Lamp& lamp, const vm::Operand& P) const {
@@ -167,8 +165,8 @@ void LightRig::set_variables(vm::Registers& registers, const Lamp& lamp, const v
             set_ray(operand, variable == Predefined::RayWay, P);
         } else if (const std::optional<float> number = number_of(variable)) {
             registers.set_uniform(id, &*number);
-        } else if (vm::Operand plane; surroundings_->footprints && is_of_footprint(variable, plane)) {
-            copy_operand(plane, 1, lanes_, operand);
+        } else if (const std::optional<vm::Operand> plane = footprint_plane(variable)) {
+            copy_operand(*plane, 1, lanes_, operand);
         } else if (rsl::width_of(registers.reg(id).type.base) > 0) {
             const float zeros[16] = {};
             registers.set_uniform(id, zeros);

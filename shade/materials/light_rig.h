@@ -59,7 +59,7 @@ class LightRig : public vm::Lights {
     void tell(const Turn& turn, const vm::LightOutput& output, const vm::Registers& registers, Slot& slot);
     void set_variables(vm::Registers& registers, const Lamp& lamp, const vm::Operand& P) const;
     std::optional<float> number_of(vm::Predefined variable) const;
-    bool is_of_footprint(vm::Predefined variable, vm::Operand& plane) const;
+    std::optional<vm::Operand> footprint_plane(vm::Predefined variable) const;
     void set_ray(const vm::Operand& out, bool way, const vm::Operand& P) const;
 
     vm::Machine* machine_ = nullptr;

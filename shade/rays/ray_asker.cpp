@@ -66,6 +66,17 @@ V3f RayAsker::normal_at(const V3f& P, const RayLane& lane) {
     return is_there ? lane.grid->Ng.at(vertex) : V3f(0, 0, 0);
 }
 
+V3f RayAsker::left_of_light_behind(const RayLane& lane, const LeftSurface& left,
+                                   const RayFilter* only) const {
+    using Sides = RayFilter::Sides;
+    const V3f all(1, 1, 1);
+    if (!(left.half < kInfinity) || !attributes_.rays.transmission) return all;
+    if (only && !only->admits(attributes_.rays.groups)) return all;
+    const Sides sides = only ? only->sides : Sides::OfAttributes;
+    const bool has_both = sides == Sides::Both || (sides == Sides::OfAttributes && attributes_.sides != 1);
+    return has_both ? all - lane.grid->Os.at(lane.lane - lane.first_of_grid) : all;
+}
+
 V3f RayAsker::inwards(const RayLane& lane, const LeftSurface& left) {
     if (!(left.half < kInfinity)) return V3f(0, 0, 0);
     return inwards_at(*lane.grid, lane.lane - lane.first_of_grid, left.half, ShadingGrid::kAllSides);

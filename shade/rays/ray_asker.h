@@ -65,6 +65,10 @@ class RayAsker {
     /// Which way the surface faces of a lane's vertex at P, as the shutter opens; 0 where P is somewhere
     /// else.
     static V3f normal_at(const V3f& P, const RayLane& lane);
+    /// What is left of light that comes to the other side of a lane's own surface than is seen of it, at P:
+    /// all of it where the surface is none that `only`, or rays of transmission, meet from there, or where it
+    /// is not known to be flat.
+    V3f left_of_light_behind(const RayLane& lane, const LeftSurface& left, const RayFilter* only) const;
     /// How far within its own grid the rays of a lane begin that is on an edge of the grid (inwards_at()).
     static V3f inwards(const RayLane& lane, const LeftSurface& left);
     /// Of rays that tell what is seen from P: on edges of the face alone, and no farther than a quarter of a

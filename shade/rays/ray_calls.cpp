@@ -227,7 +227,7 @@ Task<RayCalls::LaneRays> RayCalls::rays_of(const Call& call, std::span<const Ray
         sent.ends.push_back(sent.rays.size());
     }
     sent.followed = co_await follow(call, sent.rays);
-    co_await hide_near_ends(call, sent);
+    co_await dim_by_own_surface(call, sent);
     const RayArguments& arguments = call.arguments;
     const bool fades = call.step.op == Op::IndirectDiffuse && arguments.falloff.operand;
     for (size_t i = 0, ray = 0; fades && i < lanes.size(); ++i)
@@ -290,8 +290,8 @@ void RayCalls::add_arrival(const Call& call, const RayLane& asking, const RayAim
 }
 
 /// Takes away what does not arrive though nothing far from the surface is in its way.
-Task<> RayCalls::hide_near_ends(const Call& call, LaneRays& sent) const {
-    for (const size_t ray : sent.hidden) sent.rays[ray].through = V3f(0, 0, 0);
+Task<> RayCalls::dim_by_own_surface(const Call& call, LaneRays& sent) const {
+    for (const auto& [ray, left] : sent.turned_away) sent.rays[ray].through *= left;
     if (sent.arrivals.empty() || !co_await follow(call, sent.arrivals)) co_return;
     for (size_t i = 0; i < sent.arrivals.size(); ++i)
         sent.rays[sent.arriving[i]].through *= sent.arrivals[i].through;
@@ -331,15 +331,17 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, LaneRays& sent)
     ray.segment.spread = ray.footprint.fastest();
     const RaySequence sequence(asking.seed, samples);
     const SampleBase base(call.run);
-    const bool arrives =
-        call.between_points() && asker_.knows_media(asking) && !call.begins_here(lane, motion);
     const bool ends_here = call.between_points() && !call.begins_here(lane, motion);
+    const bool arrives = ends_here && asker_.knows_media(asking);
     // Samples of area lights are chosen for how the surface lies then.
-    const bool may_turn_away = call.ends_at_point() && times.empty();
+    const bool may_turn_away = (call.ends_at_point() || call.step.op == Op::Shadow) && times.empty();
     const V3f outside = may_turn_away
                             ? asker_.normal_at(ends_here ? arguments.towards_at(lane) : aim.P, asking)
                             : V3f(0, 0, 0);
     const float above = outside.dot(aim.direction);
+    const LeftSurface at_surface =
+        ends_here ? asker_.left_at(arguments.towards_at(lane), asking, motion, 0, arguments.bias.at(lane))
+                  : ray.segment.left;
     const bool by_cosine = call.over_sky() && !arguments.uniform_distribution;
     for (int s = 0; s < samples; ++s) {
         if (const float time = motion.time(s); time != aim.time) {
@@ -359,8 +361,10 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, LaneRays& sent)
         sent.rays.push_back(ray);
         // A surface that has turned since the shutter opened, so that light comes to its other side.
         const V3f seen = motion.turned_back(aim.direction, aim.time, true);
-        if (aim.time > 0 && above * outside.dot(seen) < 0) sent.hidden.push_back(sent.rays.size() - 1);
-        if (ends_here && angle == 0) add_arrival(call, asking, aim, motion, sent);
+        if (aim.time > 0 && above * outside.dot(seen) < 0)
+            sent.turned_away.emplace_back(sent.rays.size() - 1,
+                                          asker_.left_of_light_behind(asking, at_surface, ray.segment.only));
+        if (ends_here && angle == 0 && ray.end >= aim.length) add_arrival(call, asking, aim, motion, sent);
     }
 }
 

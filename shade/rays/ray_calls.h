@@ -34,10 +34,11 @@ class RayCalls : public vm::Rays {
     /// The rays of some lanes, one lane's after another's.
     struct LaneRays {
         std::vector<WalkedRay> rays;
-        std::vector<size_t> ends;    ///< behind each lane's last
-        bool followed = false;       ///< else they are too deep to see anything
-        std::vector<V3f> sky;        ///< what is behind each, if anything is asked
-        std::vector<size_t> hidden;  ///< numbers of rays that their own surface is in the way of
+        std::vector<size_t> ends;  ///< behind each lane's last
+        bool followed = false;     ///< else they are too deep to see anything
+        std::vector<V3f> sky;      ///< what is behind each, if anything is asked
+        /// Rays, by number, that their own surface is in the way of, and what it leaves of their light.
+        std::vector<std::pair<size_t, V3f>> turned_away;
         /// The ends of rays that come to the surface which asks, from there; and the numbers of those rays.
         std::vector<WalkedRay> arrivals;
         std::vector<size_t> arriving;
@@ -51,7 +52,7 @@ class RayCalls : public vm::Rays {
     void add_rays(const Call& call, const RayLane& lane, LaneRays& sent) const;
     void add_arrival(const Call& call, const RayLane& lane, const RayAim& aim, const LaneMotion& motion,
                      LaneRays& sent) const;
-    Task<> hide_near_ends(const Call& call, LaneRays& sent) const;
+    Task<> dim_by_own_surface(const Call& call, LaneRays& sent) const;
     RayFootprint footprint_of(const Call& call, const RayLane& asking, const RayAim& aim,
                               const LaneMotion& motion) const;
     Task<bool> follow(const Call& call, std::span<WalkedRay> rays) const;

@@ -15,7 +15,7 @@ const std::string kStands, kGoes = "MotionBegin [0 1] Translate 0 0 0 Translate 
 
 /// The mean of a picture from within a box of 4 by 4 by 4, all of whose walls have a shader s(). `before`:
 /// requests.
-double mean_of_room(const std::string& shaders, const std::string& before) {
+double mean_of_room(const std::string& shaders, const std::string& before, const std::string& camera = "") {
     const WorkFolder folder;
     const size_t light = shaders.find("light l(");
     folder.write("s.sl", shaders.substr(0, light));
@@ -23,9 +23,11 @@ double mean_of_room(const std::string& shaders, const std::string& before) {
     folder.write(
         "a.rib",
         "Format 64 64 1 PixelSamples 1 1 PixelFilter \"box\" 1 1 Projection \"perspective\" \"fov\" 70\n"
-        "Shutter 0 1 WorldBegin ShadingInterpolation \"smooth\"\n"
-        "Attribute \"visibility\" \"int diffuse\" 1 \"int transmission\" 1\n"
-        "Attribute \"trace\" \"int samplemotion\" 1\n" +
+        "Shutter 0 1 " +
+            camera +
+            " WorldBegin ShadingInterpolation \"smooth\"\n"
+            "Attribute \"visibility\" \"int diffuse\" 1 \"int transmission\" 1\n"
+            "Attribute \"trace\" \"int samplemotion\" 1\n" +
             before +
             "Surface \"s\" Translate 0 0 1 Rotate 30 1 2 0 PointsPolygons [4 4 4 4 4 4] [0 1 3 2 5 4 6 7 1 0 "
             "4 5 2 3 7 6 0 2 6 4 3 1 5 7] \"P\" [-2 -2 -2 2 -2 -2 -2 2 -2 2 2 -2 -2 -2 2 2 -2 2 -2 2 2 2 2 "
@@ -42,7 +44,8 @@ TEST(Rooms, WallsSeeNothingButWalls) {
     const std::string source =
         "surface s() { normal n = faceforward(normalize(N), I); Ci = 1 - occlusion(P, n, 16); Oi = 1; }";
     for (const std::string& motion : {kStands, kGoes, kRoomTurns})
-        EXPECT_LT(mean_of_room(source, motion), 3e-4) << motion;
+        for (const std::string& camera : {kStands, kRoomTurns})
+            EXPECT_LT(mean_of_room(source, motion, camera), 3e-4) << motion << camera;
 }
 
 /// Lights all around outside, each 1: at the creases the walls are thinner than a pixel.
@@ -56,6 +59,38 @@ TEST(Rooms, LightsOutsideDoNotShineIn) {
             ends + "); }";
         for (const std::string& motion : {kStands, kGoes, kRoomTurns})
             EXPECT_LT(mean_of_room(source, motion + lights), 4e-3) << ends << ' ' << motion;
+    }
+}
+
+/// A sheet that turns over before a lamp has its light on one side for half of the time, and on the other for
+/// the rest. What light shines through does not hide itself wholly, nor does what no ray meets.
+TEST(Rooms, SheetsThatTurnOverHideThemselvesByTheirOpacity) {
+    const auto lit = [](const std::string& attributes, const std::string& light) {
+        const WorkFolder folder;
+        folder.write("s.sl", "surface s() { Ci = 0; Oi = 1; illuminance(P, N, PI) Ci += Cl; }");
+        folder.write("l.sl", light);
+        folder.write(
+            "a.rib",
+            "Format 16 16 1 PixelSamples 4 4 PixelFilter \"box\" 1 1 Projection \"orthographic\" Shutter 0 1\n"
+            "WorldBegin ShadingInterpolation \"smooth\" LightSource \"l\" 1\n"
+            "Attribute \"trace\" \"int samplemotion\" 1 " +
+                attributes +
+                "Translate 0 0 5 MotionBegin [0 1] Rotate 0 0 1 0 Rotate 180 0 1 0 MotionEnd Surface \"s\"\n"
+                "Polygon \"P\" [-.9 -1 0 -.9 1 0 .9 1 0 .9 -1 0]\nWorldEnd\n");
+        const auto frames = render_scene((folder / "a.rib").string(), RenderSettings());
+        const size_t middle = 4 * (8 * 16 + 8);
+        if (frames.empty() || !(frames.front().image.rgba[middle + 3] > 0)) return -1.0f;
+        return frames.front().image.rgba[middle] / frames.front().image.rgba[middle + 3];
+    };
+    const std::string met = "Attribute \"visibility\" \"int transmission\" 1 ";
+    for (
+        const std::string light :
+        {"light l() { point from = point \"world\" (0, 0, -9); illuminate(from) Cl = transmission(Ps, from, \"samples\", 64); }",
+         "light l() { point from = point \"world\" (0, 0, -9); illuminate(from) Cl = transmission(from, Ps, \"samples\", 64); }",
+         "light l() { solar(vector \"world\" (0, 0, 1), 0) Cl = 1 - shadow(\"raytrace\", Ps, \"samples\", 64); }"}) {
+        EXPECT_NEAR(lit(met, light), .5f, .04f) << light;
+        EXPECT_NEAR(lit(met + "Opacity .5 .5 .5 ", light), .75f, .04f) << light;
+        EXPECT_NEAR(lit("", light), 1, 1e-3f) << light;
     }
 }
 

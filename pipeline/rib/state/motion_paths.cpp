@@ -200,8 +200,21 @@ float chord_error(const MovingTransform& transform, float open, float close, int
 
 namespace {
 
-/// Points of given poses, the same ones of each.
+/// Points of given poses, the same ones of each: some thousands of them, evenly.
 using PosePoints = std::vector<std::vector<std::optional<V3f>>>;
+
+constexpr size_t kMostPosePoints = 4096;
+
+PosePoints points_of_poses(const std::vector<std::shared_ptr<const Shape>>& shapes) {
+    PosePoints poses;
+    for (const auto& shape : shapes) {
+        const std::vector<std::optional<V3f>> all = points_of(*shape);
+        const size_t step = all.size() / kMostPosePoints + 1;
+        std::vector<std::optional<V3f>>& some = poses.emplace_back();
+        for (size_t i = 0; i < all.size(); i += step) some.push_back(all[i]);
+    }
+    return poses;
+}
 
 /// Where a point is at a time, mixed linearly from pose to pose (RISpec 6).
 std::optional<V3d> point_at(const PosePoints& poses, const std::vector<float>& times, size_t point,
@@ -247,8 +260,7 @@ int keys_for_poses(const std::vector<std::shared_ptr<const Shape>>& shapes, cons
     while (keys < kMaxKeyCount) {
         const std::vector<float> between = times_between_keys(times, open, close, keys);
         if (between.empty()) break;
-        if (poses.empty())
-            for (const auto& shape : shapes) poses.push_back(points_of(*shape));
+        if (poses.empty()) poses = points_of_poses(shapes);
         if (pose_error(poses, times, between, transform, open, close, keys, camera) <= kMostPixels) break;
         keys = 2 * keys - 1;
     }

@@ -70,6 +70,13 @@ std::optional<int> key_of(float time, float open, float close, int keys) {
     return static_cast<int>(nearest);
 }
 
+/// Leaves so many of some times, evenly.
+void thin_out(std::vector<float>& times) {
+    if (times.size() <= kMostUnmetTimes) return;
+    for (size_t i = 0; i < kMostUnmetTimes; ++i) times[i] = times[i * times.size() / kMostUnmetTimes];
+    times.resize(kMostUnmetTimes);
+}
+
 }  // namespace
 
 /// RISpec 4.3. Perspective divides by z times the tangent of half the angle: z = 1 comes to 0, what is
@@ -202,10 +209,7 @@ std::vector<float> MovingTransform::unmet_times(float open, float close, int key
             std::ranges::copy(times_between_keys(f->moving->times, open, close, keys),
                               std::back_inserter(unmet));
     std::ranges::sort(unmet);
-    if (unmet.size() > kMostUnmetTimes) {
-        for (size_t i = 0; i < kMostUnmetTimes; ++i) unmet[i] = unmet[i * unmet.size() / kMostUnmetTimes];
-        unmet.resize(kMostUnmetTimes);
-    }
+    thin_out(unmet);
     return unmet;
 }
 
@@ -247,13 +251,20 @@ int MovingTransform::wanted_keys(float open, float close) const {
 std::vector<float> times_between_keys(const std::vector<float>& times, float open, float close, int keys) {
     std::vector<float> between;
     std::optional<int> last;
-    for (const float time : times) {
-        if (time <= open || time >= close) continue;
-        const std::optional<int> key = key_of(time, open, close, keys);
+    for (size_t i = 0; i < times.size(); ++i) {
+        const bool is_within = times[i] > open && times[i] < close;
+        const std::optional<int> key = is_within ? key_of(times[i], open, close, keys)
+                                                 : std::optional<int>(times[i] < close ? 0 : keys - 1);
         // Of two times at one key something happens between them.
-        if (!key || key == last) between.push_back(time);
+        if (is_within && (!key || key == last)) between.push_back(times[i]);
+        if (times[i] >= close) {
+            if (i > 0 && times[i - 1] > open && times[i - 1] < close && key == last)
+                between.push_back(times[i - 1]);
+            break;
+        }
         last = key;
     }
+    thin_out(between);
     return between;
 }
 

@@ -78,7 +78,7 @@ class MovingTransform {
 };
 
 /// Those of a motion's times within the shutter, in their order, that are none of so many even keys, or are
-/// the same key as the time before.
+/// the same key as the time before or as the end of the shutter; 64 of them at most. `times` are in order.
 std::vector<float> times_between_keys(const std::vector<float>& times, float open, float close, int keys);
 
 /// The smallest 2^m + 1 (m <= 4) whose even keys meet all of the times within the shutter; 17 when none does.

@@ -136,5 +136,20 @@ TEST(WantedKeys, NoSegmentTurnsByMoreThanTenDegrees) {
     EXPECT_EQ(keys({0, 1, 2}, {0, 10, 9000}), 2);  // turns fast only after the shutter closes
 }
 
+TEST(MotionTimes, BetweenKeysAreThoseThatNoKeyIs) {
+    using Times = std::vector<float>;
+    EXPECT_EQ(times_between_keys({0, .5f, 1}, 0, 1, 3), Times());
+    EXPECT_EQ(times_between_keys({0, .5f, 1}, 0, 1, 2), Times{.5f});
+    EXPECT_EQ(times_between_keys({-1, .3f, .5f, 2}, 0, 1, 17), Times{.3f});
+    // Two at one key: something happens between them, also at the shutter's ends.
+    EXPECT_EQ(times_between_keys({0, .5f, .50001f, 1}, 0, 1, 3), Times{.50001f});
+    EXPECT_EQ(times_between_keys({0, .00001f, 1}, 0, 1, 2), Times{.00001f});
+    EXPECT_EQ(times_between_keys({0, .99999f, 1}, 0, 1, 2), Times{.99999f});
+    EXPECT_EQ(keys_meeting({0, .00001f, 1}, 0, 1), 17);
+    Times many;
+    for (int i = 0; i <= 1000; ++i) many.push_back(static_cast<float>(i) / 1000);
+    EXPECT_EQ(times_between_keys(many, 0, 1, 2).size(), 64u);
+}
+
 }  // namespace
 }  // namespace trapeze::rib
