@@ -68,35 +68,30 @@ TEST(ShaderValues, PointsTellHowFastTheyMove) {
                 {0, 0, 2});
 }
 
+/// What a light sends that shines on all of the square, `x` being how far to the right a point lies.
+V3f sent(const std::string& Cl) {
+    return shown(
+        "surface s() { Ci = 0; Oi = 1; illuminance(P) Ci += Cl; }\n"
+        "light l() { float x = xcomp(Ps); solar(vector (0, 0, 1), 0) Cl = " +
+            Cl + "; }",
+        "LightSource \"l\" 1 Surface \"s\" ");
+}
+
 TEST(ShaderValues, LightsKnowTimesAndTheirNames) {
-    const std::string surface = "surface s() { Ci = 0; Oi = 1; illuminance(P) Ci += Cl; }\n",
-                      requests = "LightSource \"l\" 1 Surface \"s\" ";
-    const auto told = [&](const std::string& Cl) {
-        return shown(
-            surface + "light l() { float x = xcomp(Ps); solar(vector (0, 0, 1), 0) Cl = " + Cl + "; }",
-            requests);
-    };
-    expect_near(told("color (time, dtime, ncomps)"), {.25f, .5f, 3});
-    expect_near(told("shadername() == \"l\" ? color (1, 0, 0) : color 0"), {1, 0, 0});
-    expect_near(told("shadername(\"surface\") == \"s\" ? color (1, 0, 0) : color 0"), {1, 0, 0});
+    expect_near(sent("color (time, dtime, ncomps)"), {.25f, .5f, 3});
+    expect_near(sent("shadername() == \"l\" ? color (1, 0, 0) : color 0"), {1, 0, 0});
+    expect_near(sent("shadername(\"surface\") == \"s\" ? color (1, 0, 0) : color 0"), {1, 0, 0});
 }
 
 /// The square is 2 wide, so that x changes by 2 as u goes from 0 to 1.
 TEST(ShaderValues, LightsKnowHowTheyChangeOverWhatTheyShineOn) {
-    const std::string surface = "surface s() { Ci = 0; Oi = 1; illuminance(P) Ci += Cl; }\n",
-                      requests = "LightSource \"l\" 1 Surface \"s\" ";
-    const auto told = [&](const std::string& Cl) {
-        return shown(
-            surface + "light l() { float x = xcomp(Ps); solar(vector (0, 0, 1), 0) Cl = " + Cl + "; }",
-            requests);
-    };
-    expect_near(told("color (Deriv(3 * x, x), Du(x), Dv(x))"), {3, 2, 0});
+    expect_near(sent("color (Deriv(3 * x, x), Du(x), Dv(x))"), {3, 2, 0});
     // As wide as the surface's own filters.
     const std::string widths = "color (du, dv, abs(Du(x) * du) + abs(Dv(x) * dv))";
     const V3f own =
         shown("surface s() { float x = xcomp(P); Oi = 1; Ci = " + widths + "; }", "Surface \"s\" ");
     EXPECT_GT(own.x, 0);
-    expect_near(told(widths), own);
+    expect_near(sent(widths), own);
 }
 
 TEST(ShaderValues, ParametersMayBeCalledAsDerivativesAreBy) {
