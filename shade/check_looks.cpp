@@ -21,10 +21,7 @@ void check_looks(const RenderContext& context, const MapIsMade& is_made, const A
     for (const BoundShader* shader : shaders)
         for (const NamedMap& map : named_maps(*shader, varied)) {
             if (is_made && is_made(map.name)) continue;
-            if (map.is_depths)
-                textures.find_shadow(map.name, map.location);
-            else
-                textures.find(map.name, map.location);
+            textures.check(map.name, map.location, map.is_depths);
         }
 }
 

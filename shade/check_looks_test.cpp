@@ -56,6 +56,15 @@ TEST_F(CheckLooks, MapsAreFoundThroughParametersAndThroughText) {
                 ElementsAre("texture \"lost.env\": is not found", "texture \"lost.shd\": is not found"));
 }
 
+TEST_F(CheckLooks, PicturesThatAreThereAreNoErrorsButNoShadowMapsEither) {
+    const std::string file = TRAPEZE_SOURCE_DIR "/scenes/tiny/textures/quarters.png";
+    EXPECT_THAT(said("surface mine(string map = \"\") { Ci = texture(map); }", {text("map", file)}),
+                IsEmpty());
+    EXPECT_THAT(said("surface mine(string map = \"\") { Ci = shadow(map, P); }", {text("map", file)}),
+                ElementsAre("texture \"" + file +
+                            "\": is no shadow map: it has no matrices worldtocamera and worldtoscreen"));
+}
+
 TEST_F(CheckLooks, CallsThatTheInstanceRulesOutDoNotCount) {
     const std::string source =
         "surface mine(float use = 0; string map = \"lost.tex\") { if (use != 0) Ci = texture(map); }";

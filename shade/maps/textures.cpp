@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/files/picture_files.h"
+#include "shade/maps/headers/map_header.h"
 #include "shade/maps/map_lanes.h"
 #include "shade/maps/texture_files.h"
 #include "shade/maps/textures_impl.h"
@@ -216,6 +217,21 @@ const Textures::DepthMap* Textures::find_shadow(std::string_view name, SourceLoc
         if (!made.problem.empty()) made.map.reset();
     }
     return impl_->report(known->second, name, location);
+}
+
+void Textures::check(std::string_view name, SourceLocation location, bool is_depths) {
+    const Access& access = impl_->access;
+    const auto file = is_traced(name) ? std::nullopt : map_file(std::string(name), impl_->folders, access);
+    if (file && (!access.is_confined() || is_common_picture(*file)))
+        if (const auto header = plain_map_header(*file);
+            header && (!is_depths || (header->is_one_float && header->has_matrices))) {
+            access.note_read(*file);
+            return;
+        }
+    if (is_depths)
+        find_shadow(name, location);
+    else
+        find(name, location);
 }
 
 std::optional<Textures::Info> Textures::info(std::string_view name) {

@@ -71,6 +71,10 @@ class Textures {
     class DepthMap;
     const DepthMap* find_shadow(std::string_view name, SourceLocation location);
 
+    /// Reports of a name what find() would, or find_shadow() where it is of depths. OpenImageIO is not loaded
+    /// for files whose headers leave no doubt.
+    void check(std::string_view name, SourceLocation location, bool is_depths);
+
     /// What textureinfo() asks of a file (RISpec 3.2, section 15.7); nothing when it cannot be read, which is
     /// not reported. Thread-safe.
     struct Info {
