@@ -60,7 +60,7 @@ void Generator::add_parameters() {
         by_name_[variable->name] = parameter.id;
         Code initial;
         code_ = &initial;
-        if (variable->initial) initialise(parameter.id, *variable->initial);
+        if (variable->initial) initialise(parameter.id, *variable);
         program_->parameters.back().initial = std::move(initial);
     }
 }

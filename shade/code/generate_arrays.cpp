@@ -107,15 +107,16 @@ RegisterId Generator::array_value(const Expression& e, std::optional<RegisterId>
         return moved(taken, e.type.base, into);
     }
     const RegisterId wanted = compute(Op::Floor, Base::Float, {value(*e.children[1])});
-    const RegisterId length =
-        compute(Op::Clamp, Base::Float, {wanted, constant(0), constant(static_cast<float>(kLongestArray))});
+    const RegisterId most = constant(static_cast<float>(kLongestArray));
+    const RegisterId length = compute(Op::Clamp, Base::Float, {wanted, constant(0), most});
     if (op == Op::ArrayReserve) {
         const RegisterId reserved = program_->reg(array).reserved;
         emit(Op::Max, {reserved}, {reserved, length});
         return constant(0);
     }
     at_ = e.at;
-    emit(Op::ResizeArray, {array}, {count, length});
+    // The machine sees all that is asked for, and says what is too much.
+    emit(Op::ResizeArray, {array}, {count, wanted});
     emit(Op::Move, {count}, {length});
     return constant(0);
 }

@@ -194,7 +194,10 @@ RegisterId Generator::cast_value(const Expression& e, std::optional<RegisterId> 
 RegisterId Generator::assignment_value(const Expression& e) {
     const Expression& target = *e.children[0];
     const Expression& source = *e.children[1];
-    if (target.kind == Expression::Kind::Element) {
+    const bool is_element = target.kind == Expression::Kind::Element;
+    const Variable* const variable = is_element ? target.children[0]->variable : target.variable;
+    const ForUniform for_uniform(*this, variable ? variable->storage : Storage::Unspecified);
+    if (is_element) {
         const RegisterId array = value(*target.children[0]), index = value(*target.children[1]);
         RegisterId result = value(source);
         if (e.op != Operator::None)

@@ -126,7 +126,7 @@ void Generator::declare(const Statement& s) {
         if (!variable->initial)
             clear(id);
         else
-            initialise(id, *variable->initial);
+            initialise(id, *variable);
     }
 }
 
@@ -160,7 +160,9 @@ void Generator::clear(RegisterId id) {
 
 /// One value serves all elements of an array. A list that is too short leaves the rest 0 unless it says
 /// otherwise, so the array is cleared first.
-void Generator::initialise(RegisterId id, const Expression& initial) {
+void Generator::initialise(RegisterId id, const Variable& variable) {
+    const Expression& initial = *variable.initial;
+    const ForUniform for_uniform(*this, variable.storage);
     const Type type = program_->reg(id).type;
     if (initial.kind == Expression::Kind::List) {
         const bool is_short =
@@ -196,6 +198,35 @@ void Generator::if_statement(const Statement& s) {
     close(Op::EndIf);
 }
 
+/// Returns where the loop's opening will be.
+size_t Generator::begin_loop() {
+    if (loops_++ == 0) {
+        turn_of_random_.reset();
+        outside_ = region_;
+    }
+    return code_->size();
+}
+
+/// The turns that random() counts begin at 0 in front of the outermost loop.
+void Generator::end_loop(size_t opening) {
+    if (--loops_ > 0 || !turn_of_random_) return;
+    Instruction start;
+    start.op = Op::Move;
+    start.outputs = 1;
+    start.region = outside_;
+    start.operands = {*turn_of_random_, constant(0)};
+    start.at = (*code_)[opening].at;
+    code_->insert(code_->begin() + static_cast<std::ptrdiff_t>(opening), std::move(start));
+}
+
+RegisterId Generator::turn_of_random() {
+    if (!turn_of_random_) {
+        turn_of_random_ = add_register(Register::Kind::Local, {Base::Float, 0});
+        program_->registers[*turn_of_random_].region = outside_;
+    }
+    return *turn_of_random_;
+}
+
 /// while and for. The condition is computed inside the loop in every turn, and stands before the body; what a
 /// Continue jumps to, LoopStep, stands before the for's step.
 void Generator::loop_statement(const Statement& s) {
@@ -203,6 +234,7 @@ void Generator::loop_statement(const Statement& s) {
     const Expression* initial = counts ? s.expressions[0].get() : nullptr;
     const Expression* test = s.expressions[counts ? 1 : 0].get();
     if (initial) value(*initial);
+    const size_t opening = begin_loop();
     open(Op::Loop, {}, {});
     if (test) emit(Op::LoopTest, {}, {condition(*test)});
     statement(*s.children[0]);
@@ -211,6 +243,7 @@ void Generator::loop_statement(const Statement& s) {
         for (size_t i = 2; i < s.expressions.size(); ++i)
             if (s.expressions[i]) value(*s.expressions[i]);
     close(Op::EndLoop);
+    end_loop(opening);
 }
 
 /// illuminance in surfaces and volumes; illuminate and solar in lights, which tell by them that the light has
@@ -246,7 +279,7 @@ void Generator::light_block(const Statement& s) {
     if (op == Op::Solar && inputs.empty()) inputs.push_back(global("Ns", Base::Normal));
     if (op == Op::Illuminate) inputs.insert(inputs.begin(), global("Ps", Base::Point));
     // keep_inputs() may insert copies in front of it, when all of the body is known.
-    const size_t opening = code_->size();
+    const size_t opening = begin_loop();
     if (s.at.line) at_ = s.at;
     open(op, outputs, inputs);
     if (op == Op::Illuminance) (*code_)[opening].immediate = static_cast<int32_t>(plain_inputs);
@@ -255,6 +288,7 @@ void Generator::light_block(const Statement& s) {
     light_loops_ -= op == Op::Illuminance ? 1 : 0;
     close(end);
     if (op == Op::Illuminance) keep_inputs(opening);
+    end_loop(opening);
     for (size_t i = 0; i < of_turn.size(); ++i) moved(of_turn[i], base_of(outputs[i]), outputs[i]);
 }
 
@@ -337,7 +371,7 @@ void Generator::gather_statement(const Statement& s) {
         for (const auto& [argument, place] : elements) write_back(*argument, place);
         if (child < s.children.size()) statement(*s.children[child]);
     };
-    const size_t opening = code_->size();
+    const size_t opening = begin_loop();
     open(Op::Gather, outputs, inputs);
     half(0);
     // As in turn_to_else(): the second half is a region of its own.
@@ -347,6 +381,7 @@ void Generator::gather_statement(const Statement& s) {
     half(1);
     close(Op::EndGather);
     keep_inputs(opening);
+    end_loop(opening);
 }
 
 /// The value goes to the caller's register; at the end of a body nothing has to be left. Leave takes lanes

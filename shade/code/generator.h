@@ -104,9 +104,12 @@ class Generator {
     void declare(const Statement& s);
     void declare_outliving(const Statement& s);
     void clear(RegisterId id);
-    void initialise(RegisterId id, const Expression& initial);
+    void initialise(RegisterId id, const Variable& variable);
     void if_statement(const Statement& s);
     void loop_statement(const Statement& s);
+    size_t begin_loop();
+    void end_loop(size_t opening);
+    RegisterId turn_of_random();
     void light_block(const Statement& s);
     void option_for_lights(const Expression& name, const Expression& argument, Ids& inputs);
     void warn_of_growing(const char* word, const Expression& name, const Expression& argument);
@@ -132,12 +135,30 @@ class Generator {
     int call_depth_ = 0;
     int light_loops_ = 0;       ///< illuminance blocks around what is being generated
     int32_t random_calls_ = 0;  ///< numbers the calls of random(), so that no two give the same
+    int loops_ = 0;             ///< loops of any kind around what is being generated
+    uint32_t outside_ = 0;      ///< the region around the outermost of them
+    /// How often random() was called in the loops so far; none while it was not.
+    std::optional<RegisterId> turn_of_random_;
+    bool for_uniform_ = false;  ///< what is being computed goes to a uniform variable
     /// Of the function (or shader) whose body is being generated.
     struct Body {
         std::optional<RegisterId> result;
         bool in_scope = false;  ///< a return jumps
     };
     Body body_;
+
+    /// While it lives, what is computed goes to a variable of this storage.
+    class ForUniform {
+      public:
+        ForUniform(Generator& generator, Storage storage)
+            : flag_(generator.for_uniform_), before_(std::exchange(flag_, storage == Storage::Uniform)) {}
+        ~ForUniform() { flag_ = before_; }
+        ForUniform(const ForUniform&) = delete;
+
+      private:
+        bool& flag_;
+        bool before_;
+    };
 };
 
 }  // namespace trapeze::rsl

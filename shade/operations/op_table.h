@@ -78,6 +78,11 @@ inline constexpr std::string_view kSurfaceU = "surface:u", kSurfaceV = "surface:
 /// Predefined variables that no source can name, inputs of Op::RayWay.
 inline constexpr std::string_view kRayOrigin = "ray:origin", kRayWay = "ray:way";
 
+/// Op::Random's immediate: the call's number in the program, and whether all vertices of a grid get the same.
+namespace random_call {
+inline constexpr int32_t kOfGrid = 1 << 30;
+}
+
 struct OpRow {
     Op op;
     std::string_view name;      ///< as the listing of a program has it

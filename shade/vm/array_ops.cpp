@@ -13,9 +13,11 @@ namespace {
 
 using rsl::Op;
 
-/// A number of elements, or the place of one, out of a float that may be anything.
+/// A number of elements, or the place of one, out of a float that may be anything. More than an array may
+/// have is one more, for which there is no room: who asks is told.
 size_t whole(float x) {
-    return x > 0 ? static_cast<size_t>(std::min(std::floor(x), static_cast<float>(rsl::kLongestArray))) : 0;
+    constexpr float kMost = rsl::kLongestArray + 1;
+    return x > 0 ? static_cast<size_t>(std::min(std::floor(x), kMost)) : 0;
 }
 
 /// An operand of a step, as an array.
@@ -177,9 +179,7 @@ void set_array_element(Run& run, const Step& step, std::span<const Operand> oper
 void push_element(Run& run, const Step& step, std::span<const Operand> operands) {
     const Operand &count = operands[1], &value = operands[2];
     const Array array(run, step, 0);
-    const auto longer = [&](size_t lane) {
-        return std::min<size_t>(count_at(count, lane) + 1, rsl::kLongestArray);
-    };
+    const auto longer = [&](size_t lane) { return count_at(count, lane) + 1; };
     if (array.is_text()) {
         const size_t elements = longer(first_lane(run));
         grow(run, step, array, elements);

@@ -141,6 +141,9 @@ TEST(Arrays, AreBounded) {
         "the arrays of shader \"test\" have grown too large: together they have at most 65536 numbers, or 4096 "
         "texts; further elements are lost\n";
     EXPECT_EQ(said("float a[]; resize(a, 65536); r = a[s];"), "");
+    EXPECT_EQ(said("float a[]; resize(a, 70000); r = a[s];"), "test.sl:1:56: error: " + too_large);
+    EXPECT_EQ(said("float a[]; resize(a, 65536); push(a, 1); r = a[s];"),
+              "test.sl:1:74: error: " + too_large);
     EXPECT_EQ(said("color a[]; resize(a, 65536); r = comp(a[s], 0);"), "test.sl:1:56: error: " + too_large);
     EXPECT_EQ(said("float a[], b[]; resize(a, 60000); resize(b, 1e30); r = a[s] + b[s];"),
               "test.sl:1:79: error: " + too_large);

@@ -6,17 +6,28 @@
 namespace trapeze::vm {
 namespace {
 
-/// A vertex' number is hashed from its grid's seed, its place in the grid, and the call's number in the
-/// program (Step::immediate). None of them depends on which thread shades the grid or which grids share a
-/// batch. Lanes behind the last vertex get the seed 0; nobody reads what comes of it.
+/// The word of a lane in the call's turn of a loop: a first turn is what it would be without the loop.
+uint32_t in_turn(uint32_t word, float turn) {
+    constexpr float kMost = 1 << 24;  // lanes that do not run may hold anything
+    return turn > 0 && turn < kMost ? hash(word, static_cast<uint32_t>(turn)) : word;
+}
+
+/// A vertex' number is hashed from its grid's seed, its place in the grid, the call's number in the program
+/// (Step::immediate) and how often the vertex has come by in a loop. None of them depends on which thread
+/// shades the grid or which grids share a batch. Lanes behind the last vertex get the seed 0; nobody reads
+/// what comes of it.
 void random(Run& run, const Step& step, std::span<const Operand> operands) {
     float* seeds = run.scratch(1);
     std::memset(seeds, 0, run.lanes() * sizeof(float));
+    const bool is_of_grid = (step.immediate & rsl::random_call::kOfGrid) != 0;
+    const Operand* const turns = operands.size() > 1 ? &operands[1] : nullptr;
     if (const Batch* batch = run.context().batch)
         for (const GridSpan& span : batch->spans)
             for (size_t i = 0; i < static_cast<size_t>(span.shape.vertex_count()); ++i) {
-                const uint32_t word = span.word(static_cast<uint32_t>(i));
-                std::memcpy(seeds + span.first + i, &word, sizeof word);
+                const size_t lane = span.first + i;
+                uint32_t word = span.word(is_of_grid ? 0 : static_cast<uint32_t>(i));
+                if (turns) word = in_turn(word, turns->data[lane & turns->lane_mask]);
+                std::memcpy(seeds + lane, &word, sizeof word);
             }
     Operand lanes;
     lanes.data = seeds;

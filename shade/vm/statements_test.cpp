@@ -1,6 +1,8 @@
 // Each statement of the language, where all lanes go one way and where they part, with and without the
 // optimiser. s runs over 0, 1/3, 2/3, 1 and t over 0, 1/2, 1; the expected values are the same loops in C++.
 #include <cmath>
+#include <memory>
+#include <set>
 
 #include "shade/vm/run_shader_harness.h"
 
@@ -303,6 +305,73 @@ TEST(Statements, WhatIsUniformIsFound) {
     ShaderRun parted(
         "surface test(output varying float r = 0;) { float sum = 0; if (s > 0.5) sum = 1; r = sum; }");
     for (const rsl::Register& r : parted.program().registers) EXPECT_TRUE(r.varying || r.name != "sum");
+}
+
+// random()
+
+size_t different(const std::vector<float>& values) {
+    return std::set<float>(values.begin(), values.end()).size();
+}
+
+std::vector<float> values_of(const std::unique_ptr<ShaderRun>& run, const std::string& name) {
+    std::vector<float> values;
+    for (size_t i = 0; i < run->vertices(); ++i) values.push_back(run->at(name, i));
+    return values;
+}
+
+/// Outputs a to d of what the body does, at 8 x 8 vertices.
+std::unique_ptr<ShaderRun> run_of(const std::string& body) {
+    auto run = std::make_unique<ShaderRun>(
+        "surface test(output varying float a = 0, b = 0, c = 0, d = 0;) {" + body + "}", true, 8, 8);
+    run->run();
+    return run;
+}
+
+TEST(Random, EachTurnOfALoopGivesOtherNumbers) {
+    for (
+        const char* body :
+        {"uniform float i; for (i = 0; i < 4; i += 1) { float x = random();"
+         "  if (i == 0) a = x; if (i == 1) b = x; if (i == 2) c = x; if (i == 3) d = x; }",
+         "float i = 0; while (i < 4) { float x = random();"
+         "  if (i == 0) a = x; if (i == 1) b = x; if (i == 2) c = x; if (i == 3) d = x; i += 1; }",
+         "float draw() { return random(); } uniform float i, k;"
+         "for (i = 0; i < 2; i += 1) for (k = 0; k < 2; k += 1) { float x = draw(); uniform float n = 2 * i + k;"
+         "  if (n == 0) a = x; if (n == 1) b = x; if (n == 2) c = x; if (n == 3) d = x; }"}) {
+        const auto run = run_of(body);
+        std::vector<float> all;
+        for (const char* name : {"a", "b", "c", "d"})
+            for (const float value : values_of(run, name)) all.push_back(value);
+        EXPECT_GE(different(all), all.size() - 1) << body;  // one in a hundred runs would have two alike
+    }
+}
+
+TEST(Random, TheFirstTurnIsAsWithoutALoop) {
+    const auto run = run_of("a = random();");
+    const auto in_loop =
+        run_of("uniform float i; for (i = 0; i < 3; i += 1) { float x = random(); if (i == 0) a = x; }");
+    EXPECT_EQ(values_of(run, "a"), values_of(in_loop, "a"));
+}
+
+TEST(Random, VerticesThatComeByLaterCountTheirOwnTurns) {
+    // Those of the right half draw in the second turn for the first time.
+    const auto run = run_of(
+        "uniform float i; for (i = 0; i < 2; i += 1) if (s > .5 ? i == 1 : i == 0) { float x = random(); a = x; }");
+    const auto at_once = run_of("a = random();");
+    EXPECT_EQ(values_of(run, "a"), values_of(at_once, "a"));
+}
+
+TEST(Random, AUniformVariableGetsOneNumberForTheGrid) {
+    const auto run = run_of(
+        "uniform float r = random(), q; q = 1 - random(); uniform color k = color random();"
+        "a = r; b = q; c = comp(k, 0); d = comp(k, 1);");
+    const auto at_once = run_of("a = random();");
+    std::set<float> drawn;
+    for (const char* name : {"a", "b", "c", "d"}) {
+        EXPECT_EQ(different(values_of(run, name)), 1u) << name;
+        drawn.insert(run->at(name, 0));
+    }
+    EXPECT_EQ(drawn.size(), 4u);
+    EXPECT_GT(different(values_of(at_once, "a")), 60u);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <regex>
 
 namespace trapeze::vm {
@@ -15,17 +16,21 @@ constexpr int kMaxFieldWidth = 200;
 /// "%[flags][width][.precision]letter", of which the numbers are kept within reason.
 struct Field {
     std::string prefix = "%";  ///< all but the letter, for snprintf
-    char letter = 0;           ///< 0: the format ends in it
+    size_t width = 0;
+    std::optional<size_t> precision;
+    bool is_left = false;  ///< what is narrower stands on the left
+    char letter = 0;       ///< 0: the format ends in it
 };
 
 /// A width or precision, clamped: a format from a stranger must not ask for a megabyte. Returns where reading
 /// goes on.
-size_t read_number(std::string_view format, size_t at, std::string& out) {
+size_t read_number(std::string_view format, size_t at, std::string& out, size_t& value) {
     int number = 0;
     const size_t first = at;
     while (at < format.size() && std::isdigit(static_cast<unsigned char>(format[at])))
         number = std::min(number * 10 + (format[at++] - '0'), kMaxFieldWidth);
     if (at != first) out += std::to_string(number);
+    value = static_cast<size_t>(number);
     return at;
 }
 
@@ -34,12 +39,13 @@ size_t read_number(std::string_view format, size_t at, std::string& out) {
 size_t read_field(std::string_view format, size_t at, Field& field) {
     while (at < format.size() && std::string_view("+- #0").find(format[at]) != std::string_view::npos) {
         if (field.prefix.size() < 8) field.prefix += format[at];
+        field.is_left = field.is_left || format[at] == '-';
         ++at;
     }
-    at = read_number(format, at, field.prefix);
+    at = read_number(format, at, field.prefix, field.width);
     if (at < format.size() && format[at] == '.') {
         field.prefix += '.';
-        at = read_number(format, at + 1, field.prefix);
+        at = read_number(format, at + 1, field.prefix, field.precision.emplace());
     }
     if (at < format.size()) field.letter = format[at++];
     return at;
@@ -62,10 +68,18 @@ std::string number_text(const Field& field, float value) {
     return buffer;
 }
 
+/// A text in its field: what is beyond the precision is cut, and blanks fill the width.
+std::string padded(const Field& field, std::string text) {
+    if (field.precision) text.resize(std::min(text.size(), *field.precision));
+    if (text.size() < field.width)
+        text.insert(field.is_left ? text.size() : 0, field.width - text.size(), ' ');
+    return text;
+}
+
 /// A triple or matrix is its numbers, with blanks between.
 void append_value(const Field& field, const TextValue& value, std::string& out) {
     if (value.is_text) {
-        out += value.text;
+        out += padded(field, std::string(value.text));
         return;
     }
     for (size_t i = 0; i < value.floats.size(); ++i) {

@@ -24,6 +24,8 @@ TEST(TextFormat, WritesWhatLettersAskFor) {
     EXPECT_EQ(formatted("P = %p, C = %c", {{{}, false, {1, 2, 3}}, {{}, false, {.5f, 0, 1}}}),
               "P = 1.000000 2.000000 3.000000, C = 0.500000 0.000000 1.000000");
     EXPECT_EQ(formatted("%s and %s", {text("a"), text("b")}), "a and b");
+    EXPECT_EQ(formatted("[%5s][%-5s][%.1s][%1s]", {text("ab"), text("ab"), text("ab"), text("ab")}),
+              "[   ab][ab   ][a][ab]");
     EXPECT_EQ(formatted("100%% %d%%", {number(3)}), "100% 3%");
 }
 

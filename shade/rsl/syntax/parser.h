@@ -72,6 +72,7 @@ class Parser {
     void definition();
     void shader();
     void function(std::string inside);
+    void warn_of_twin(const Function& function);
     std::vector<std::unique_ptr<Variable>> formals(Variable::Kind kind);
     /// at_...() look ahead and take nothing.
     bool at_specifier() const;

@@ -195,6 +195,14 @@ TEST(Parser, ErrorsSayWhereAndGoOn) {
               "error 1:44: an array has 1 to 65536 elements\n"
               "error 1:60: an array's length is a constant whole number\n");
     EXPECT_EQ(errors("surface t() { Ci = 1;"), "error 1:22: expected \"}\" after a block\n");
+    EXPECT_EQ(
+        errors(
+            "float f(float a) { return a; } float f(color c) { return 2; } color f(float b) { return b; }"),
+        "");
+    EXPECT_EQ(
+        errors("float f(float a; color c) { return a; }\nfloat f(uniform float x; color y) { return 2; }"),
+        "warning 2:7: function \"f\" is defined before with the same parameters: the first definition "
+        "counts\n");
     EXPECT_NE(errors("transformation t() {}").find("transformation shaders are not supported"),
               std::string::npos);
 }
