@@ -2,6 +2,7 @@
 /// geometry for them.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -66,6 +67,45 @@ struct LeftSurface {
     }
 };
 
+/// Which of all hits one is, for who goes on behind it.
+struct RayHitPlace {
+    const void* grids = nullptr;     ///< in which it was found; null: nowhere
+    const void* instance = nullptr;  ///< of what instances share
+    float depth = 0;                 ///< there
+    uint64_t id = 0;
+};
+
+/// The surfaces in one place that a ray has gone through. The last one's own next micropolygon may be met
+/// there, too, and is the same surface; those of other primitives count.
+class PassedSurfaces {
+  public:
+    /// Goes through a hit; its surface ends at the distance `until`. False where there are more surfaces in
+    /// the place than are known apart.
+    bool add(uint32_t primitive, float distance, float until, const RayHitPlace& hit) {
+        if (!(distance < until_)) count_ = 0, until_ = until;
+        last_ = hit;
+        if (has(primitive, distance)) return true;
+        if (count_ == kMost) return false;
+        primitives_[count_++] = primitive;
+        return true;
+    }
+    bool has(uint32_t primitive, float distance) const {
+        if (!(distance < until_)) return false;
+        for (uint32_t i = 0; i < count_; ++i)
+            if (primitives_[i] == primitive) return true;
+        return false;
+    }
+    float until() const { return until_; }
+    const RayHitPlace& last() const { return last_; }
+
+  private:
+    static constexpr uint32_t kMost = 8;
+    std::array<uint32_t, kMost> primitives_{};
+    uint32_t count_ = 0;
+    float until_ = -std::numeric_limits<float>::infinity();  ///< distance
+    RayHitPlace last_;
+};
+
 /// A part of a ray, in camera space at shutter open: held there while the shutter is open, also where the
 /// camera moves.
 struct RaySegment {
@@ -76,6 +116,7 @@ struct RaySegment {
     uint8_t level = 0;  ///< of the geometry that it left; it meets none that is finer
     bool backwards = false;  ///< stands for light that goes the other way: what faces that way faces the ray
     LeftSurface left;
+    PassedSurfaces passed;
     const RayFilter* only = nullptr;  ///< hits that count; null: all that the attributes let be seen
 };
 
@@ -92,6 +133,7 @@ struct RaySurfaceHit {
     /// MicropolygonId::packed(): with `primitive` and `at`, what dice() finds the place by.
     uint64_t id = 0;
     V2f at{0, 0};  ///< within the micropolygon
+    RayHitPlace place;
 };
 
 /// The geometry that rays meet, at any time of the shutter. Immutable: threads share it.

@@ -11,11 +11,27 @@ bool sees(RayKind kind, unsigned mask) {
     return (mask >> static_cast<unsigned>(kind) & 1) != 0;
 }
 
+/// The ray as it asks grids for hits: behind the last one that it has gone through, where that is of theirs.
+RangedRay asking(const RayGrids& grids, const RaySegment& ray, const PlacedRay& placed) {
+    RangedRay asked = placed.ranged(ray);
+    const RayHitPlace& last = ray.passed.last();
+    if (last.grids == &grids && last.instance == placed.place && last.depth >= asked.range.min)
+        asked.pass({last.depth, last.id});
+    return asked;
+}
+
+RaySurfaceHit hit_of(const RayGrids& grids, const RayHits& hits, const RaySegment& ray,
+                     const PlacedRay& placed, const RayGridHit& found) {
+    RaySurfaceHit hit = hits.hit_of(ray, placed, found);
+    hit.place.grids = &grids;
+    return hit;
+}
+
 std::optional<RaySurfaceHit> closest_in(const RayGrids& grids, const RayHits& hits, const RaySegment& ray,
                                         const PlacedRay& placed) {
-    RangedRay asked = placed.ranged(ray);
+    RangedRay asked = asking(grids, ray, placed);
     while (const std::optional<RayGridHit> found = grids.closest(asked)) {
-        if (hits.counts(ray, placed, *found)) return hits.hit_of(ray, placed, *found);
+        if (hits.counts(ray, placed, *found)) return hit_of(grids, hits, ray, placed, *found);
         asked.pass(found->hit);
     }
     return {};
@@ -25,7 +41,7 @@ std::optional<RaySurfaceHit> closest_in(const RayGrids& grids, const RayHits& hi
 void closest_in(const RayBricks& bricks, const RayHits& hits, std::span<const RaySegment> rays,
                 std::span<const PlacedRay> placed, std::span<std::optional<RaySurfaceHit>> found) {
     std::vector<RangedRay> asked;
-    for (size_t i = 0; i < rays.size(); ++i) asked.push_back(placed[i].ranged(rays[i]));
+    for (size_t i = 0; i < rays.size(); ++i) asked.push_back(asking(bricks, rays[i], placed[i]));
     std::vector<uint32_t> going(rays.size());  // asked[r] is ray going[r]
     std::iota(going.begin(), going.end(), 0u);
     while (!going.empty()) {
@@ -36,7 +52,7 @@ void closest_in(const RayBricks& bricks, const RayHits& hits, std::span<const Ra
             counted[r] = hits.counts(rays[i], placed[i], met);
             passed[r] = met.hit;
             if (counted[r])
-                found[i] = hits.hit_of(rays[i], placed[i], met);
+                found[i] = hit_of(bricks, hits, rays[i], placed[i], met);
             else
                 found[i].reset();
         });

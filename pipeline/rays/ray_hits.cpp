@@ -65,6 +65,7 @@ bool RayHits::counts(const RaySegment& ray, const PlacedRay& placed, const RayGr
             return ray.left.is_left(corner - ray.origin, ray.direction);
         }))
         return false;
+    if (ray.passed.has(primitive(placed, *found.grid), found.hit.depth / placed.scale)) return false;
     return shows(ray, placed, found);
 }
 
@@ -90,6 +91,7 @@ RaySurfaceHit RayHits::hit_of(const RaySegment& ray, const PlacedRay& placed, co
     const Primitive& own = dicer_.context().scene->primitives[hit.primitive];
     if (placed.place && !brings_colors(own)) hit.color = own.attributes->color;
     hit.id = found.hit.id;
+    hit.place.instance = placed.place, hit.place.depth = found.hit.depth, hit.place.id = found.hit.id;
     hit.at = {weights.w[k10] + weights.w[k11], weights.w[k01] + weights.w[k11]};
     return hit;
 }

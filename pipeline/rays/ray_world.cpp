@@ -15,7 +15,7 @@ namespace {
 constexpr double kRayShare = 0.5;
 /// About what a ray takes that waits for geometry, and what it does where it passes through instances'
 /// spaces; the most that wait.
-constexpr size_t kBytesOfRay = 384, kBytesOfPlacedRay = 1024, kMostAtOnce = size_t{1} << 18;
+constexpr size_t kBytesOfRay = 512, kBytesOfPlacedRay = 1280, kMostAtOnce = size_t{1} << 18;
 
 /// Scenes of fewer micropolygons have one level: time is not gained by more where all is in memory.
 constexpr uint64_t kManyMicropolygons = uint64_t{1} << 25;

@@ -11,9 +11,14 @@ constexpr int kMostSurfaces = 64;
 
 }  // namespace
 
-float behind(const RayScene& scene, const RaySegment& ray, const RaySurfaceHit& hit) {
+void go_behind(const RayScene& scene, const RaySurfaceHit& hit, RaySegment& ray) {
+    // What is as near in another space may round to be nearer.
+    constexpr float kRounding = 0x1p-21f;
     const float spacing = scene.spacing(ray.origin + ray.direction * hit.distance);
-    return hit.distance + std::max(hit.distance * 1e-6f, spacing * 1e-4f);
+    const float until = hit.distance + std::max(hit.distance * 1e-6f, spacing * 1e-4f);
+    ray.min = ray.passed.add(hit.primitive, hit.distance, until, hit.place) ? hit.distance * (1 - kRounding)
+                                                                            : ray.passed.until();
+    ray.level = hit.level;  // else finer geometry of the same surface might be met once more
 }
 
 void InsideSearch::add(const RaySegment& ray, float from, RayMedium& found) {
@@ -40,7 +45,7 @@ bool InsideSearch::goes_on(Looking& one, const RaySurfaceHit& hit) const {
         }
         one.within += hit.from_outside ? 1 : -1;
     }
-    one.ray.min = behind(scene_, one.ray, hit), one.ray.level = hit.level;
+    go_behind(scene_, hit, one.ray);
     return true;
 }
 

@@ -10,8 +10,9 @@
 
 namespace trapeze {
 
-/// Behind a surface, but not so far that the next one is missed: a distance.
-float behind(const RayScene& scene, const RaySegment& ray, const RaySurfaceHit& hit);
+/// What is left of a ray behind a surface that it has hit: other surfaces in the same place count, and the
+/// same one does not.
+void go_behind(const RayScene& scene, const RaySurfaceHit& hit, RaySegment& ray);
 
 /// Many places at once. A ray that leaves a thing with a shader of its inside has been in there, unless it
 /// has gone in behind the place.

@@ -1,11 +1,28 @@
 #include "shade/rays/lane_motion.h"
 
+#include <cmath>
+
 #include "core/motion_keys.h"
 #include "core/random.h"
 #include "core/scene/poses.h"
 #include "core/scene/shading_grid.h"
 
 namespace trapeze {
+
+namespace {
+
+/// A direction turned as what leads from one unit vector to another by the shortest way; where none does, as
+/// it is.
+V3f turned_from(const V3f& from, const V3f& to, const V3f& direction) {
+    const V3f axis = from.cross(to);
+    const float cosine = from.dot(to);
+    constexpr float kNearlyOpposite = -0.999f;
+    const bool are_unit = from != V3f(0, 0, 0) && to != V3f(0, 0, 0);
+    if (!are_unit || !(cosine > kNearlyOpposite)) return direction;
+    return direction * cosine + axis.cross(direction) + axis * (axis.dot(direction) / (1 + cosine));
+}
+
+}  // namespace
 
 LaneMotion::LaneMotion(const RayAsker& asker, const RayLane& lane, std::optional<float> given)
     : grid_(lane.grid), vertex_(lane.lane - lane.first_of_grid) {
@@ -19,37 +36,62 @@ LaneMotion::LaneMotion(const RayAsker& asker, const RayLane& lane, std::optional
     if (!is_hit_) held_ = asker.service().held_from_camera;
     keys_ = motion_keys_of(*grid_, held_);
     turn_ = turn_of(*grid_, held_);
+    if (!is_hit_ && grid_->primitive->shape_keys.size() > 1 && GridTangents::tell_of(grid_->shape))
+        at_open_ = tangents(0);
 }
 
 V3f LaneMotion::turned(const V3f& direction, float time, bool diffuse) const {
-    return is_hit_ || diffuse ? turn_.forward(direction, time) : direction;
+    if (!is_hit_ && !diffuse) return direction;
+    const V3f turned = turn_.forward(direction, time);
+    return at_open_ && time != 0 ? turned_by_shape(turned, time, false) : turned;
 }
 
 V3f LaneMotion::turned_back(const V3f& direction, float time, bool diffuse) const {
-    return is_hit_ || diffuse ? turn_.back(direction, time) : direction;
+    if (!is_hit_ && !diffuse) return direction;
+    return turn_.back(at_open_ && time != 0 ? turned_by_shape(direction, time, true) : direction, time);
+}
+
+V3f LaneMotion::turned_by_shape(const V3f& direction, float time, bool back) const {
+    const V3f before = turn_.forward(at_open_->normal(), time), now = tangents(time).normal();
+    return back ? turned_from(now, before, direction) : turned_from(before, now, direction);
 }
 
 std::optional<V3f> LaneMotion::normal(const V3f& normal, float time) const {
     if (time == 0 || !grid_) return normal;
-    if (grid_->primitive->shape_keys.size() > 1) return {};
-    return turn_.normal(normal, time);
+    if (grid_->primitive->shape_keys.size() <= 1) return turn_.normal(normal, time);
+    if (!at_open_) return {};
+    const GridTangents now = tangents(time);
+    if (!now.is_about_as_long_as(*at_open_)) return {};
+    const float along = at_open_->normal().dot(normal);
+    constexpr float kAlike = 0.9f;
+    if (!(std::abs(along) > kAlike)) return {};
+    return along < 0 ? -now.normal() : now.normal();
 }
 
 float LaneMotion::time(int sample) const {
     return varies_ ? shutter_time(sample, shift_) : only_time_;
 }
 
-V3f LaneMotion::place(int key) const {
+V3f LaneMotion::place(int key, size_t vertex) const {
     const Triples& P = grid_->P[grid_->P.size() > 1 ? static_cast<size_t>(key) : 0];
-    const V3f here = P.at(vertex_);
+    const V3f here = P.at(vertex);
     return held_.empty() ? here : here * held_at(held_, key, keys_);
 }
 
 V3f LaneMotion::way(float time) const {
     if (keys_ == 1 || time == 0) return V3f(0, 0, 0);
+    return place_at(time, vertex_) - start();
+}
+
+V3f LaneMotion::place_at(float time, size_t vertex) const {
+    if (keys_ == 1 || time == 0) return place(0, vertex);
     const MotionSegment at = segment_at(time, keys_);
-    const V3f from = place(at.index), to = place(at.index + 1);
-    return from + (to - from) * at.local - place(0);
+    const V3f from = place(at.index, vertex), to = place(at.index + 1, vertex);
+    return from + (to - from) * at.local;
+}
+
+GridTangents LaneMotion::tangents(float time) const {
+    return GridTangents(grid_->shape, vertex_, [&](size_t vertex) { return place_at(time, vertex); });
 }
 
 }  // namespace trapeze

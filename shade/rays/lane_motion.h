@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "core/scene/motion_turn.h"
+#include "shade/rays/grid_tangents.h"
 #include "shade/rays/ray_asker.h"
 
 namespace trapeze {
@@ -26,17 +27,23 @@ class LaneMotion {
     /// How far the point has come since the shutter opened; camera space at shutter open.
     V3f way(float time) const;
     /// Where the shaded point itself is at shutter open.
-    V3f start() const { return place(0); }
-    /// Where a direction of a ray leads at a time, as its surface turns; and the other way round. All rays of
-    /// hits turn, for the ways that these are seen along have been turned back; of what the camera sees
-    /// diffuse ones alone, which follow the normal: others, the eye's way through glass, stay as they are.
+    V3f start() const { return place(0, vertex_); }
+    /// Where a direction of a ray leads at a time, as its surface turns, also in deforming; and back. All
+    /// rays of hits turn, for the ways that these are seen along have been turned back; of what the camera
+    /// sees diffuse ones alone, which follow the normal: others, the eye's way through glass, stay as they
+    /// are.
     V3f turned(const V3f& direction, float time, bool diffuse) const;
     V3f turned_back(const V3f& direction, float time, bool diffuse) const;
-    /// Where the surface's unit normal of shutter open leads at a time; nothing where the surface deforms.
+    /// Where the surface's unit normal of shutter open leads at a time; nothing where the surface stretches
+    /// so much that it may be bent otherwise, or is too coarse a grid to tell.
     std::optional<V3f> normal(const V3f& normal, float time) const;
 
   private:
-    V3f place(int key) const;
+    V3f place(int key, size_t vertex) const;
+    V3f place_at(float time, size_t vertex) const;
+    GridTangents tangents(float time) const;
+    /// The shortest turn from the normal of shutter open, as the space alone turns it, to a time's.
+    V3f turned_by_shape(const V3f& direction, float time, bool back) const;
 
     const ShadingGrid* grid_;
     size_t vertex_;
@@ -46,6 +53,7 @@ class LaneMotion {
     float shift_ = 0, only_time_ = 0;
     bool is_hit_ = false;
     MotionTurn turn_;
+    std::optional<GridTangents> at_open_;  ///< of what deforms, where its grid tells
 };
 
 }  // namespace trapeze

@@ -151,8 +151,7 @@ bool RayWalk::pass(const Met& met, const RayAsk& ask) const {
         if (ends) return false;
     }
     ray.medium = {met.hit.primitive, met.hit.from_outside}, ray.medium_from = met.hit.distance;
-    ray.segment.min = behind(scene_, ray.segment, met.hit);
-    ray.segment.level = met.hit.level;  // else finer geometry of the same surface might be met once more
+    go_behind(scene_, met.hit, ray.segment);
     return true;
 }
 

@@ -13,9 +13,32 @@ namespace {
 const std::string kStands, kGoes = "MotionBegin [0 1] Translate 0 0 0 Translate .3 .2 .1 MotionEnd ",
                            kRoomTurns = "MotionBegin [0 1] Rotate 0 1 2 3 Rotate 30 1 2 3 MotionEnd ";
 
+/// The box, its corners moved by a matrix.
+std::string box(const M44f& moved) {
+    std::string corners;
+    for (int i = 0; i < 8; ++i) {
+        const V3f corner = V3f(i & 1 ? 2 : -2, i & 2 ? 2 : -2, i & 4 ? 2 : -2) * moved;
+        for (int k = 0; k < 3; ++k) corners += std::to_string(corner[k]) + " ";
+    }
+    return "PointsPolygons [4 4 4 4 4 4] [0 1 3 2 5 4 6 7 1 0 4 5 2 3 7 6 0 2 6 4 3 1 5 7] \"P\" [" +
+           corners + "] ";
+}
+
+/// Boxes that deform: into a leaning one, and into one that has turned by half a radian.
+std::string leaning_box() {
+    return "MotionBegin [0 1] " + box(M44f()) +
+           box(M44f(1, 0, 0, 0, .2f, 1, 0, 0, 0, .15f, 1, 0, 0, 0, 0, 1)) + "MotionEnd ";
+}
+std::string turning_box() {
+    M44f turn;
+    turn.rotate(V3f(0, 0, .5f));
+    return "MotionBegin [0 1] " + box(M44f()) + box(turn) + "MotionEnd ";
+}
+
 /// The mean of a picture from within a box of 4 by 4 by 4, all of whose walls have a shader s(). `before`:
 /// requests.
-double mean_of_room(const std::string& shaders, const std::string& before, const std::string& camera = "") {
+double mean_of_room(const std::string& shaders, const std::string& before, const std::string& camera = "",
+                    const std::string& room = box(M44f())) {
     const WorkFolder folder;
     const size_t light = shaders.find("light l(");
     folder.write("s.sl", shaders.substr(0, light));
@@ -28,10 +51,7 @@ double mean_of_room(const std::string& shaders, const std::string& before, const
             " WorldBegin ShadingInterpolation \"smooth\"\n"
             "Attribute \"visibility\" \"int diffuse\" 1 \"int transmission\" 1\n"
             "Attribute \"trace\" \"int samplemotion\" 1\n" +
-            before +
-            "Surface \"s\" Translate 0 0 1 Rotate 30 1 2 0 PointsPolygons [4 4 4 4 4 4] [0 1 3 2 5 4 6 7 1 0 "
-            "4 5 2 3 7 6 0 2 6 4 3 1 5 7] \"P\" [-2 -2 -2 2 -2 -2 -2 2 -2 2 2 -2 -2 -2 2 2 -2 2 -2 2 2 2 2 "
-            "2]\nWorldEnd\n");
+            before + "Surface \"s\" Translate 0 0 1 Rotate 30 1 2 0 " + room + "\nWorldEnd\n");
     const auto frames = render_scene((folder / "a.rib").string(), RenderSettings());
     double sum = 0;
     for (size_t i = 0; !frames.empty() && i < frames.front().image.rgba.size(); i += 4)
@@ -46,6 +66,9 @@ TEST(Rooms, WallsSeeNothingButWalls) {
     for (const std::string& motion : {kStands, kGoes, kRoomTurns})
         for (const std::string& camera : {kStands, kRoomTurns})
             EXPECT_LT(mean_of_room(source, motion, camera), 3e-4) << motion << camera;
+    for (const std::string& room : {leaning_box(), turning_box()})
+        for (const std::string& motion : {kStands, kRoomTurns})
+            EXPECT_LT(mean_of_room(source, motion, kStands, room), 3e-4) << motion << room;
 }
 
 /// Lights all around outside, each 1: at the creases the walls are thinner than a pixel.
@@ -59,6 +82,8 @@ TEST(Rooms, LightsOutsideDoNotShineIn) {
             ends + "); }";
         for (const std::string& motion : {kStands, kGoes, kRoomTurns})
             EXPECT_LT(mean_of_room(source, motion + lights), 4e-3) << ends << ' ' << motion;
+        for (const std::string& room : {leaning_box(), turning_box()})
+            EXPECT_LT(mean_of_room(source, lights, "", room), 4e-3) << ends << ' ' << room;
     }
 }
 
