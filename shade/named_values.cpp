@@ -32,7 +32,9 @@ NamedValue orientation_of(const Attributes& attributes, const Primitive* primiti
 std::optional<NamedValue> find_own(const Attributes& a, const Primitive* primitive, std::string_view name) {
     if (name == "ShadingRate" || name == "Ri:ShadingRate") return one(a.shading_rate);
     if (name == "Sides" || name == "Ri:Sides") return one(static_cast<float>(a.sides));
-    if (name == "Matte" || name == "Ri:Matte") return one(static_cast<float>(a.matte));
+    if (name == "Matte" || name == "matte" || name == "Ri:Matte") return one(static_cast<float>(a.matte));
+    if (name == "GeometricApproximation:motionfactor") return one(a.motion_factor);
+    if (name == "GeometricApproximation:focusfactor") return one(a.focus_factor);
     if (name == "Ri:Color") return three(a.color);
     if (name == "Ri:Opacity") return three(a.opacity);
     if (name == "Ri:TextureCoordinates") return all_of(a.texture_coordinates);
@@ -43,7 +45,8 @@ std::optional<NamedValue> find_own(const Attributes& a, const Primitive* primiti
 }
 
 NamedValue text_of(RayAttributes::HitMode mode) {
-    return text_of(mode == RayAttributes::HitMode::Shader ? "shader" : "primitive");
+    using HitMode = RayAttributes::HitMode;
+    return text_of(mode == HitMode::Shader ? "shader" : mode == HitMode::Opaque ? "opaque" : "primitive");
 }
 
 /// What holds of attributes that no request has set, of rays above all.
@@ -78,7 +81,7 @@ std::optional<NamedValue> find_user_value(const UserValues& values, std::string_
 /// Options that requests of their own set, without "Ri:".
 std::optional<NamedValue> find_own(const Options& o, const Camera& camera, std::string_view name) {
     const auto width = static_cast<float>(camera.width), height = static_cast<float>(camera.height);
-    if (name == "Format") return all_of<3>({width, height, o.pixel_aspect});
+    if (name == "Format" || name == "DeviceResolution") return all_of<3>({width, height, o.pixel_aspect});
     if (name == "FormatResolution") return all_of<2>({width, height});
     if (name == "FormatPixelAspectRatio") return one(o.pixel_aspect);
     if (name == "FrameAspectRatio")

@@ -288,7 +288,7 @@ bool Shading::keeps_opacity(uint32_t primitive) const {
     const Material& material = impl_->materials.of(primitive);
     const RayAttributes& rays = material.attributes->rays;
     using HitMode = RayAttributes::HitMode;
-    return (rays.transmission_hits == HitMode::Primitive && rays.diffuse_hits != HitMode::Shader) ||
+    return (rays.transmission_hits != HitMode::Shader && rays.diffuse_hits != HitMode::Shader) ||
            std::ranges::none_of(material.surface->layers,
                                 [](const BoundShader* layer) { return changes_opacity(layer->program()); }) ||
            is_opaque(impl_->context.scene->primitives[primitive], *material.surface);

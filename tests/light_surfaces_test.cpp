@@ -70,6 +70,11 @@ TEST(LightSurfaces, OfNormalizedLightsAreAsDarkAsTheyAreLarge) {
                 kRounding);
     EXPECT_NEAR(middle(picture("Scale 2 2 2 " + light("Sphere", "\"int areaNormalize\" [1]")))[0],
                 3 / (4 * std::numbers::pi), kRounding);
+    // A spheroid of radii .5, .5 and 2: 2 pi a^2 (1 + c / (a e) asin(e)).
+    const double e = std::sqrt(1 - .25 * .25);
+    const double spheroid = 2 * std::numbers::pi * .25 * (1 + 2 / (.5 * e) * std::asin(e));
+    EXPECT_NEAR(middle(picture("Scale 1 1 4 " + light("Sphere", "\"int areaNormalize\" [1]")))[0],
+                3 / spheroid, 2 * kRounding);
     EXPECT_NEAR(middle(picture("Scale 1.5 2 2 " + light("Cylinder", "\"int areaNormalize\" [1]")))[0],
                 3 / (3 * std::numbers::pi), kRounding);
 }

@@ -130,8 +130,9 @@ struct LightInstance {
 /// How rays that shaders trace meet a primitive. Nothing is seen by them unless its attributes ask for it, as
 /// in PRMan.
 struct RayAttributes {
-    /// What a hit stands for: the primitive's own colour and opacity, or what its shaders make of them.
-    enum class HitMode : uint8_t { Primitive, Shader };
+    /// What a hit stands for: the primitive's own colour and opacity, or what its shaders make of them; or,
+    /// for transmission alone, something that hides all.
+    enum class HitMode : uint8_t { Primitive, Shader, Opaque };
 
     bool diffuse = false, specular = false, transmission = false;  ///< Attribute "visibility", by kind of ray
     HitMode transmission_hits = HitMode::Shader;  ///< Attribute "shade" "transmissionhitmode"

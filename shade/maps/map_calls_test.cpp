@@ -142,6 +142,20 @@ TEST_F(MapCallsTest, OptionsMayVary) {
     EXPECT_NEAR(blurred->at("f", 15), 0.5f, 0.1f);
 }
 
+TEST_F(MapCallsTest, MatricesOfMapsTakePointsOfCurrentSpace) {
+    scene_.camera_from_world = M44f(0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 3, 5, 7, 1);
+    const auto shader = run(with(
+        "uniform matrix view = 1, screen = 1; f = textureinfo($depths, \"viewingmatrix\", view) +"
+        " textureinfo($depths, \"projectionmatrix\", screen);"
+        "point world = point(.25, .5, 2), here = point(3 - .5, 5 + .25, 7 + 2);"
+        "c = color(distance(transform(view, here), world), distance(transform(screen, here), world), 0);",
+        kVarying, *this));
+    EXPECT_EQ(shader->at("f", 0), 2);
+    EXPECT_NEAR(shader->at("c", 0, 0), 0,
+                1e-5f);  // the map's camera is the world's, and sees it orthographically
+    EXPECT_NEAR(shader->at("c", 0, 1), 0, 1e-5f);
+}
+
 TEST_F(MapCallsTest, InfoGoesToVariablesOfEveryKind) {
     for (const char* storage : {"uniform", "varying"}) {
         const std::string var(storage);

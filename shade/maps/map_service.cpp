@@ -338,9 +338,14 @@ void MapService::texture_info(Run& run, const Step& step, std::span<const Operan
             values = {static_cast<float>(info->width), static_cast<float>(info->height)};
         if (what == "channels") values = {static_cast<float>(info->channels)};
         if (what == "exists") values = {1};
-        const auto& matrix = what == "projectionmatrix" ? info->projection_matrix : info->viewing_matrix;
-        if ((what == "viewingmatrix" || what == "projectionmatrix") && matrix)
-            values.assign(&(*matrix)[0][0], &(*matrix)[0][0] + 16);
+        if (what == "viewingmatrix" || what == "projectionmatrix") {
+            const auto& from_world =
+                what == "projectionmatrix" ? info->projection_matrix : info->viewing_matrix;
+            // They are told from current space, which is the camera's here.
+            const M44f matrix =
+                from_world ? M44f(M44d(scene_.camera_from_world).inverse() * M44d(*from_world)) : M44f();
+            if (from_world) values.assign(&matrix[0][0], &matrix[0][0] + 16);
+        }
         const std::string text = what == "type" ? info->type : what == "wrapmodes" ? info->wrap_modes : "";
         if (!text.empty() && type.base == rsl::Base::String) {
             registers.text(id) = text;

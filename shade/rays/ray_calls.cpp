@@ -37,6 +37,15 @@ void put(const Operand& out, const RayLane& lane, const V3f& value) {
     put_lanes(out, lane.first, lane.count, value);
 }
 
+float mean_of(const V3f& color) {
+    return (color.x + color.y + color.z) / 3;
+}
+
+/// A float that tells of light tells its mean; of a map or a scene it is the first channel.
+bool is_mean(Op op) {
+    return op == Op::Shadow || op == Op::Transmission || op == Op::Visibility;
+}
+
 /// The result of a call that sees nothing.
 float result_of_nothing(Op op, bool colors) {
     if (op == Op::Transmission || op == Op::Visibility) return 1;
@@ -45,8 +54,7 @@ float result_of_nothing(Op op, bool colors) {
 
 /// How much of the light along a ray is hidden.
 float hidden_by(const WalkedRay& ray, const RayArguments& arguments, size_t lane) {
-    const float open = (ray.through.x + ray.through.y + ray.through.z) / 3;
-    return (1 - open) * arguments.falloff_at(ray.distance, lane);
+    return (1 - mean_of(ray.through)) * arguments.falloff_at(ray.distance, lane);
 }
 
 }  // namespace
@@ -138,7 +146,7 @@ struct LaneSums {
             if (output.name == "transmission") {
                 const V3f part = rays > 0 ? through / count : V3f(1, 1, 1);
                 const bool one = output.operand->stride == 0;
-                trapeze::put(*output.operand, lane, one ? V3f((part.x + part.y + part.z) / 3) : part);
+                trapeze::put(*output.operand, lane, one ? V3f(mean_of(part)) : part);
             }
         }
     }
@@ -202,12 +210,14 @@ void RayCalls::tell(const Call& call, const Operand& out, std::span<const RayLan
             sum += call.share_of(one, lane);
             if (!sent.followed) continue;
             if (!sent.sky.empty()) sums.sky += sent.sky[ray];
-            sums.open_way += one.segment.direction * ((one.through.x + one.through.y + one.through.z) / 3);
+            sums.open_way += one.segment.direction * mean_of(one.through);
             sums.through += one.through;
             sums.hidden += hidden_by(one, arguments, lane);
             if (one.hits()) sums.way += one.told_distance(), ++sums.hits;
         }
-        put(out, lanes[i], ray > from ? sum / static_cast<float>(ray - from) : nothing);
+        const V3f result = ray > from ? sum / static_cast<float>(ray - from) : nothing;
+        const bool is_grey = result.x == result.y && result.y == result.z;
+        put(out, lanes[i], is_grey || call.colors || !is_mean(call.step.op) ? result : V3f(mean_of(result)));
         sums.put(arguments, lanes[i], ray - from);
     }
 }

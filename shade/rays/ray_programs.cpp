@@ -18,9 +18,14 @@ bool gathers_of_map(const rsl::Program& program, const rsl::Instruction& i) {
            category.texts.front().starts_with(rsl::kOfEnvironment);
 }
 
+/// indirectdiffuse(map, R), which sends none.
+bool looks_at_map(const rsl::Program& program, const rsl::Instruction& i) {
+    return i.op == Op::IndirectDiffuse && program.reg(i.input(0)).type.base == rsl::Base::String;
+}
+
 bool calls(const rsl::Program& program, const rsl::Code& code, bool maps_are_traced) {
     return std::ranges::any_of(code, [&](const rsl::Instruction& i) {
-        return (rsl::sends_rays(i.op) && !gathers_of_map(program, i)) ||
+        return (rsl::sends_rays(i.op) && !gathers_of_map(program, i) && !looks_at_map(program, i)) ||
                ((i.op == Op::Shadow || i.op == Op::Environment) && maps_are_traced);
     });
 }

@@ -142,7 +142,11 @@ bool RayWalk::see(WalkedRay& ray, const V3f& color, const V3f& opacity) {
 bool RayWalk::pass(const Met& met, const RayAsk& ask) const {
     WalkedRay& ray = *met.ray;
     const bool own = met.vertex < 0;
-    const V3f opacity = own ? met.hit.opacity : met.grid->Oi.at(static_cast<size_t>(met.vertex));
+    const bool hides_all = own && !ask.hit_mode && ask.kind == RayKind::Transmission &&
+                           met.hit.attributes->transmission_hits == RayAsk::HitMode::Opaque;
+    const V3f opacity = hides_all ? V3f(1, 1, 1)
+                        : own     ? met.hit.opacity
+                                  : met.grid->Oi.at(static_cast<size_t>(met.vertex));
     const V3f color = own ? met.hit.color * opacity : met.grid->Ci.at(static_cast<size_t>(met.vertex));
     if (!see(ray, color, opacity)) return false;
     if (ask.opaque) {

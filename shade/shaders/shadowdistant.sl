@@ -10,6 +10,6 @@ light shadowdistant(
     solar(to - from, 0) {
         Cl = intensity * lightcolor;
         if (shadowname != "")
-            Cl *= 1 - shadow(shadowname, Ps, "samples", samples, "width", width, "blur", blur, "bias", bias);
+            Cl *= 1 - color shadow(shadowname, Ps, "samples", samples, "width", width, "blur", blur, "bias", bias);
     }
 }

@@ -11,28 +11,28 @@ light shadowpoint(
     illuminate(from) {
         vector D = vtransform("shader", L);
         float ax = abs(xcomp(D)), ay = abs(ycomp(D)), az = abs(zcomp(D));
-        float hidden = 0;
+        color hidden = 0;
 
         if (ax >= ay && ax >= az) {
             if (xcomp(D) >= 0) {
                 if (sfpx != "")
-                    hidden = shadow(sfpx, Ps, "samples", samples, "width", width, "blur", blur, "bias", bias);
+                    hidden = color shadow(sfpx, Ps, "samples", samples, "width", width, "blur", blur, "bias", bias);
             } else if (sfnx != "") {
-                hidden = shadow(sfnx, Ps, "samples", samples, "width", width, "blur", blur, "bias", bias);
+                hidden = color shadow(sfnx, Ps, "samples", samples, "width", width, "blur", blur, "bias", bias);
             }
         } else if (ay >= az) {
             if (ycomp(D) >= 0) {
                 if (sfpy != "")
-                    hidden = shadow(sfpy, Ps, "samples", samples, "width", width, "blur", blur, "bias", bias);
+                    hidden = color shadow(sfpy, Ps, "samples", samples, "width", width, "blur", blur, "bias", bias);
             } else if (sfny != "") {
-                hidden = shadow(sfny, Ps, "samples", samples, "width", width, "blur", blur, "bias", bias);
+                hidden = color shadow(sfny, Ps, "samples", samples, "width", width, "blur", blur, "bias", bias);
             }
         } else {
             if (zcomp(D) >= 0) {
                 if (sfpz != "")
-                    hidden = shadow(sfpz, Ps, "samples", samples, "width", width, "blur", blur, "bias", bias);
+                    hidden = color shadow(sfpz, Ps, "samples", samples, "width", width, "blur", blur, "bias", bias);
             } else if (sfnz != "") {
-                hidden = shadow(sfnz, Ps, "samples", samples, "width", width, "blur", blur, "bias", bias);
+                hidden = color shadow(sfnz, Ps, "samples", samples, "width", width, "blur", blur, "bias", bias);
             }
         }
         Cl = (1 - hidden) * intensity * lightcolor / (L . L);

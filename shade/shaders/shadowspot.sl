@@ -16,8 +16,8 @@ light shadowspot(
         float cosangle = (L . axis) / length(L);
         float atten = pow(max(cosangle, 0), beamdistribution) / (L . L);
         atten *= smoothstep(cosoutside, cosinside, cosangle);
-        if (shadowname != "")
-            atten *= 1 - shadow(shadowname, Ps, "samples", samples, "width", width, "blur", blur, "bias", bias);
         Cl = atten * intensity * lightcolor;
+        if (shadowname != "")
+            Cl *= 1 - color shadow(shadowname, Ps, "samples", samples, "width", width, "blur", blur, "bias", bias);
     }
 }

@@ -20,8 +20,8 @@ light standinlight(
             float cosangle = (L . axis) / length(L);
             atten *= pow(max(cosangle, 0), beamdistribution) * smoothstep(cosoutside, cosinside, cosangle);
         }
-        if (shadowname != "")
-            atten *= 1 - shadow(shadowname, Ps);
         Cl = atten * intensity * lightcolor;
+        if (shadowname != "")
+            Cl *= 1 - color shadow(shadowname, Ps);
     }
 }

@@ -93,7 +93,7 @@ light uberlight(
             tint = lcol;
             if (shadowmap != "")
                 tint = mix(lcol, shadowcolor,
-                           shadow(shadowmap, Ps, "samples", shadownsamps, "blur", shadowblur, "bias", shadowbias));
+                           color shadow(shadowmap, Ps, "samples", shadownsamps, "blur", shadowblur, "bias", shadowbias));
             Cl = atten * intensity * tint;
         }
     } else {
@@ -101,7 +101,7 @@ light uberlight(
             tint = lcol;
             if (shadowmap != "")
                 tint = mix(lcol, shadowcolor,
-                           shadow(shadowmap, Ps, "samples", shadownsamps, "blur", shadowblur, "bias", shadowbias));
+                           color shadow(shadowmap, Ps, "samples", shadownsamps, "blur", shadowblur, "bias", shadowbias));
             Cl = atten * intensity * tint;
         }
     }

@@ -82,6 +82,32 @@ TEST(RayShaders, TheOcclusionLightIsWhatIsOpen) {
     expect_told(c.render("color a = ambient(); Ci = told(comp(a, 0), .5, 1);"), 1e-6f, 64 * 64);
 }
 
+/// Shadows of coloured glass have its colour; a float tells their mean.
+TEST(RayShaders, ShadowsOfStandardLightsAreColored) {
+    Case c;
+    c.things = "Opacity .75 .5 .125 Surface \"constant\" " + wall("3");
+    c.functions =
+        "color lit() { color sum = 0; illuminance(P, normal(0, 0, -1), PI) sum += Cl; return sum; }";
+    for (const std::string light : {"\"shadowpoint\" 1 \"sfpz\" \"raytrace\"",
+                                    "\"shadowspot\" 1 \"coneangle\" 1 \"shadowname\" \"raytrace\"",
+                                    "\"shadowdistant\" 1 \"shadowname\" \"raytrace\"",
+                                    "\"uberlight\" 1 \"width\" 9 \"height\" 9 \"shadowmap\" \"raytrace\""}) {
+        c.asker = "LightSource " + light + " ";
+        const Image image = c.render("color k = lit(); Ci = told(comp(k, 1) / comp(k, 0), 2, 1);");
+        expect_told(image, 1e-4f, 64 * 64, 1e-4f);
+        expect_told(c.render("color k = lit(); Ci = told(comp(k, 2) / comp(k, 0), 3.5, 1);"), 1e-4f, 64 * 64,
+                    1e-4f);
+    }
+    c.asker = "";
+    expect_told(
+        c.render("float open = visibility(P, point(0, 0, 0)); Ci = told(open, (.25 + .5 + .875) / 3, 1);"),
+        1e-5f, 64 * 64, 1e-5f);
+    c.shaders["grey"] =
+        "light grey() { solar(vector \"world\" (0, 0, 1), 0) { float hidden = shadow(\"raytrace\", Ps); Cl = hidden; } }";
+    c.asker = "LightSource \"grey\" 1 ";
+    expect_told(c.render("Ci = told(comp(lit(), 0), (.75 + .5 + .125) / 3, 1);"), 1e-5f, 64 * 64, 1e-5f);
+}
+
 /// Standard lights whose maps are "raytrace" cast the shadows that transmission() finds.
 TEST(RayShaders, StandardLightsTraceTheirShadows) {
     Case c;

@@ -22,10 +22,13 @@ int depth_of(const Parameter& value) {
     return depth > 0 ? static_cast<int>(std::min(depth, kMost)) : 0;
 }
 
-/// "visibility" "string transmission", of PRMan before 13: what rays see, and by whose opacity.
+/// "visibility" "string transmission", of PRMan before 13, and BMRT's "render" "string casts_shadows": what
+/// rays see, and by whose opacity.
 void set_old_transmission(const std::string& seen_as, RayAttributes& rays) {
-    rays.transmission = seen_as != "transparent";
-    rays.transmission_hits = seen_as == "shader" ? HitMode::Shader : HitMode::Primitive;
+    rays.transmission = seen_as != "transparent" && seen_as != "none";
+    rays.transmission_hits = seen_as == "shader" || seen_as == "shade" ? HitMode::Shader
+                             : seen_as == "opaque"                     ? HitMode::Opaque
+                                                                       : HitMode::Primitive;
 }
 
 /// The three kinds of rays that can see a surface have a flag each; the older "trace" sets the two of
@@ -63,11 +66,8 @@ void set_ray_attribute(std::string_view category, const Parameter& value, RayAtt
     // BMRT's: what follows casts shadows, by its Opacity unless it says that its shader is to be asked.
     if (category == "light" && value.name == "shadows" && !value.strings.empty() && value.strings[0] == "on")
         rays.transmission = true, rays.transmission_hits = RayAttributes::HitMode::Primitive;
-    if (category == "render" && value.name == "casts_shadows" && !value.strings.empty()) {
-        rays.transmission = value.strings[0] != "none";
-        rays.transmission_hits =
-            value.strings[0] == "shade" ? RayAttributes::HitMode::Shader : RayAttributes::HitMode::Primitive;
-    }
+    if (category == "render" && value.name == "casts_shadows" && !value.strings.empty())
+        set_old_transmission(value.strings[0], rays);
     if (category == "shade" && !value.strings.empty()) set_hit_mode(value.name, value.strings[0], rays);
     if (category == "grouping" && value.name == "membership" && !value.strings.empty())
         change_membership(value.strings[0], rays.groups);

@@ -324,7 +324,7 @@ TEST(Analysis, ArraysAreAssignedWhole) {
     EXPECT_EQ(in_surface("float a[2]; a = {1, 2, 3};"),
               "error 1:83: 3 values for the 2 elements of an array\n");
     EXPECT_EQ(in_surface("float a[2]; float x = arraylength(a) + arraylength(Kd);"),
-              "error 1:118: argument 1 of arraylength is a float, a void is wanted\n"
+              "error 1:118: argument 1 of arraylength is a float, an array is wanted\n"
               "note 1:118: float arraylength(any array)\n");
 }
 

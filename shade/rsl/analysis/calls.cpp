@@ -207,7 +207,10 @@ void Analyser::explain(std::vector<Signature> all, const Expression& call) {
             if (parameter->output && !is_place(argument))
                 error(argument.at, which + "is written to, and must be a variable");
             else
-                error(argument.at, which + "is a " + is + ", a " + print(parameter->type) + " is wanted");
+                error(argument.at,
+                      which + "is a " + is + ", " +
+                          (parameter->type.base == Base::Void ? "an array" : "a " + print(parameter->type)) +
+                          " is wanted");
             reporter_.note(argument.at, print(signature));
             return;
         }

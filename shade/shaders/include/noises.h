@@ -23,6 +23,8 @@
 #define VLNoise(p, scale) (snoise(vsnoise(p) * scale + p))
 #define filteredVLNoise(p, width, scale) (filteredsnoise(filteredvsnoise(p, width) * scale + p, width))
 
+/* The name of some versions. */
+#define filtered_fBm(p, filtwidth, octaves, lacunarity, gain) fBm(p, filtwidth, octaves, lacunarity, gain)
 #define fBm_default(p) fBm(p, filterwidthp(p), 4, 2, 0.5)
 #define vfBm_default(p) vfBm(p, filterwidthp(p), 4, 2, 0.5)
 #define VLfBm_default(p) VLfBm(p, filterwidthp(p), 4, 2, 0.5, 1.0)
