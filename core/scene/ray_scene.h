@@ -114,6 +114,7 @@ struct RaySegment {
     float time = 0;                                               ///< 0 at shutter open, 1 at shutter close
     float spread = 0;   ///< how much wider it grows on each unit of its way: what it stands for is a cone
     uint8_t level = 0;  ///< of the geometry that it left; it meets none that is finer
+    float number = 0;   ///< 0 to 1: which levels of detail in transition it sees (SeenNumbers)
     bool backwards = false;  ///< stands for light that goes the other way: what faces that way faces the ray
     LeftSurface left;
     PassedSurfaces passed;

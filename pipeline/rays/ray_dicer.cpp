@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/scene/level_of_detail.h"
 #include "pipeline/rays/held_scene.h"
 
 namespace trapeze {
@@ -93,8 +94,10 @@ Grid RayDicer::make(size_t subpatch, GridArena& arena) const {
     PackOptions options;
     options.both_sides = true;
     options.float_colors = context_.float_colors;
-    // One-sided surfaces hide nothing for sure, their other side is not there; nor do parts of solids.
+    // One-sided surfaces hide nothing for sure, their other side is not there; nor do parts of solids, and
+    // what not all rays see.
     options.keep_hits_behind = !keeps_opacity_[grid->primitive_index] ||
+                               !seen_numbers(*grid->primitive->attributes).are_all() ||
                                grid->primitive->attributes->sides != 2 || grid->primitive->solid >= 0;
     int64_t not_finite = 0;
     return pack_grid(*grid, arena, &not_finite, options);

@@ -28,6 +28,12 @@ bool brings_colors(const Primitive& primitive) {
 
 }  // namespace
 
+RayHits::RayHits(const RayDicer& dicer, uint8_t level) : dicer_(dicer), level_(level) {
+    for (const Primitive& primitive : dicer.context().scene->primitives)
+        seen_.push_back(seen_numbers(*primitive.attributes));
+    if (std::ranges::all_of(seen_, &SeenNumbers::are_all)) seen_.clear();
+}
+
 /// In the scene itself.
 uint32_t RayHits::primitive(const PlacedRay& placed, const Grid& grid) const {
     return placed.place ? dicer_.shared().primitive_at(*placed.place, grid.primitive) : grid.primitive;
@@ -46,6 +52,7 @@ bool RayHits::from_outside(const PlacedRay& placed, const V3f& direction, const 
 bool RayHits::shows(const RaySegment& ray, const PlacedRay& placed, const RayGridHit& found) const {
     using Sides = RayFilter::Sides;
     const uint32_t number = primitive(placed, *found.grid);
+    if (!seen_.empty() && !seen_[number].contain(ray.number)) return false;
     const Primitive& own = dicer_.context().scene->primitives[number];
     if (own.solid >= 0) return true;  // the whole solid has sides
     const Attributes& attributes = dicer_.attributes(number);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <tuple>
 
+#include "core/scene/level_of_detail.h"
 #include "core/scene/ray_scene.h"
 #include "pipeline/rays/placed_ray.h"
 #include "pipeline/rays/ray_dicer.h"
@@ -26,7 +27,7 @@ inline float beyond(float distance) {
 /// Of a level of the geometry.
 class RayHits {
   public:
-    RayHits(const RayDicer& dicer, uint8_t level) : dicer_(dicer), level_(level) {}
+    RayHits(const RayDicer& dicer, uint8_t level);
 
     /// Whether a hit counts: not where it may be the surface that the ray leaves, nor where the ray wants
     /// other groups or sides.
@@ -40,6 +41,7 @@ class RayHits {
 
     const RayDicer& dicer_;
     const uint8_t level_;
+    std::vector<SeenNumbers> seen_;  ///< by primitive; empty: all rays see all of them
 };
 
 }  // namespace trapeze

@@ -75,8 +75,8 @@ class Textures {
     /// for files whose headers leave no doubt.
     void check(std::string_view name, SourceLocation location, bool is_depths);
 
-    /// What textureinfo() asks of a file (RISpec 3.2, section 15.7), matrices from world space; nothing when it cannot be read, which is
-    /// not reported. Thread-safe.
+    /// What textureinfo() asks of a file (RISpec 3.2, section 15.7), matrices from world space; nothing when
+    /// it cannot be read, which is not reported. Thread-safe.
     struct Info {
         int width = 0, height = 0, channels = 0;
         std::string type;                       ///< "texture", "environment" or "shadow"

@@ -164,7 +164,7 @@ void GatherCall::add_rays(size_t number, int first, int count) {
         ray.segment.min = aim.leads() ? ray.segment.left.distance(ray.segment.direction) : kInfinity;
         ray.segment.origin = base_.origin(P, arguments_, asking, s) + ray.moved;
         ray.medium = asker_.medium(asking, direction);
-        ray.seed = asking.of_ray(s);
+        ray.seed = asking.of_ray(s), ray.segment.number = asker_.number(asking, s);
         rays_.push_back(ray);
     }
 }

@@ -101,6 +101,12 @@ RayMedium RayAsker::medium(const RayLane& lane, const V3f& direction) const {
     return {lane.grid->primitive_index, direction.dot(outside) < 0};
 }
 
+float RayAsker::number(const RayLane& lane, int sample) const {
+    const float number = unit_float(hash(lane.seed, static_cast<uint32_t>(sample), 5));
+    // Rounding must not lead out of a range.
+    return std::min(seen_.from + number * (seen_.to - seen_.from), std::nextafter(seen_.to, 0.0f));
+}
+
 /// The bounds of all surfaces on the way hold, each counted from the surface's own depth.
 RayDepths RayAsker::depths_behind(RayKind kind) const {
     RayDepths depths = service_.visit.depths;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/level_of_detail.h"
 #include "core/scene/scene.h"
 #include "shade/rays/ray_walk.h"
 #include "shade/rays/surface_slab.h"
@@ -50,7 +51,7 @@ class RayAsker {
   public:
     /// `attributes`: of the surface that is shaded.
     RayAsker(const RayService& service, const Attributes& attributes)
-        : service_(service), attributes_(attributes) {}
+        : service_(service), attributes_(attributes), seen_(seen_numbers(attributes)) {}
 
     const RayService& service() const { return service_; }
     /// bend_of() a grid of the surface, next to what rays meet of it; infinite where it is not known.
@@ -90,6 +91,8 @@ class RayAsker {
     /// Whether rays to lights are to take things for what they are by themselves: what dims light need not be
     /// lit through itself, and would ask again at each step of its way.
     bool dims_alone() const { return dims_alone_; }
+    /// RaySegment::number of a lane's ray: a level of detail in transition sees what is seen along with it.
+    float number(const RayLane& lane, int sample) const;
     /// What a ray of a lane goes through first.
     RayMedium medium(const RayLane& lane, const V3f& direction) const;
     /// Whether hits are not shaded any more: they are black.
@@ -100,6 +103,7 @@ class RayAsker {
 
     const RayService& service_;
     const Attributes& attributes_;
+    const SeenNumbers seen_;
     bool within_medium_ = false, dims_alone_ = false;
 };
 

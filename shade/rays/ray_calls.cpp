@@ -286,7 +286,7 @@ void RayCalls::add_arrival(const Call& call, const RayLane& asking, const RayAim
     WalkedRay near;
     RaySegment& segment = near.segment;
     segment.only = whole.segment.only, segment.level = asking.level(), segment.time = aim.time;
-    segment.backwards = true;
+    segment.backwards = true, segment.number = whole.segment.number;
     segment.direction = -aim.direction;
     segment.left = asker_.left_at(end, asking, motion, aim.time, bias);
     segment.min = segment.left.distance(segment.direction);
@@ -367,7 +367,7 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, LaneRays& sent)
         ray.segment.origin = base.origin(aim.P, arguments, asking, s) + ray.moved;
         const V3f way = motion.turned_back(ray.segment.direction, ray.segment.time, call.over_sky());
         (arrives ? ray.end_medium : ray.medium) = asker_.medium(asking, arrives ? -way : way);
-        ray.seed = asking.of_ray(s);
+        ray.seed = asking.of_ray(s), ray.segment.number = asker_.number(asking, s);
         sent.rays.push_back(ray);
         // A surface that has turned since the shutter opened, so that light comes to its other side.
         const V3f seen = motion.turned_back(aim.direction, aim.time, true);
