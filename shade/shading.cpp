@@ -252,10 +252,10 @@ bool Shading::asks_clouds_alone() const {
                                [](const BoundShader* shader) { return trapeze::asks_clouds_alone(*shader); });
 }
 
-std::vector<const LightInstance*> Shading::mesh_lights() const {
-    std::vector<const LightInstance*> lights;
+std::vector<Shading::MeshLight> Shading::mesh_lights() const {
+    std::vector<MeshLight> lights;
     for (const Lamp* lamp : impl_->materials.lamps())
-        if (is_mesh_light(*lamp)) lights.push_back(lamp->area);
+        if (is_mesh_light(*lamp)) lights.push_back({lamp->area, lamp->asks_place()});
     return lights;
 }
 

@@ -260,6 +260,47 @@ TEST(AreaLights, InstancesShine) {
                0.003, 0.05);
 }
 
+/// A sphere that is displaced to a larger one lights as that, where rays meet it displaced.
+TEST(AreaLights, DisplacedShapesShineFromWhereTheyAre) {
+    for (const auto& [displaces, expected] : {std::pair("0", "1 / 16"), {"1", "1"}}) {
+        Case c = lit_by(std::string("AttributeBegin Attribute \"visibility\" \"int camera\" [0] Sides 1 "
+                                    "Attribute \"displacementbound\" \"sphere\" [.75] Displacement \"grows\" "
+                                    "Attribute \"trace\" \"int displacements\" [") +
+                        displaces +
+                        "] Light \"PxrMeshLight\" \"m\" \"int fixedSampleCount\" [256] "
+                        "Translate 0 0 2 Sphere .25 -.25 .25 360 AttributeEnd ");
+        c.shaders["grows"] = "displacement grows() { P += .75 * normalize(N); N = calculatenormal(P); }";
+        expect_lit(c.render(asks("vector m = point(0, 0, 2) - P; float expected = " + std::string(expected) +
+                                 " / (m . m) * 3 / length(m);")),
+                   0.01, 0.1);
+    }
+}
+
+/// Of the middle of a patch the mean is .5 of u and v; s and t are as TextureCoordinates has them.
+TEST(AreaLights, TheirShadersKnowWhereOnThemThePointIs) {
+    const auto mean_of = [](const std::string& value) {
+        Case c = lit_by(
+            "AttributeBegin Attribute \"visibility\" \"int camera\" [0] "
+            "Attribute \"light\" \"int nsamples\" [64] AreaLightSource \"tells\" \"a\" "
+            "TextureCoordinates 0 0 2 0 0 3 2 3 "
+            "Patch \"bilinear\" \"P\" [-1 1 3 1 1 3 -1 -1 3 1 -1 3] AttributeEnd Illuminate \"a\" 1 ");
+        c.shaders["tells"] = "light tells() { illuminate(P, N, PI / 2) Cl = " + value + "; }";
+        return mean_red(
+            c.render("float sum = 0, n = 0;"
+                     "illuminance(P, normal(0, 0, -1), PI / 2) { sum += comp(Cl, 0); n += 1; }"
+                     "Ci = 64 * sum / n;"));
+    };
+    EXPECT_NEAR(mean_of("u"), .5, .01);
+    EXPECT_NEAR(mean_of("v * v"), 1 / 3.0, .01);
+    EXPECT_NEAR(mean_of("s"), 1, .02);
+    EXPECT_NEAR(mean_of("t"), 1.5, .03);
+    EXPECT_NEAR(mean_of("length(dPdu)"), 2, 1e-3);
+    EXPECT_NEAR(mean_of("ycomp(dPdv)"), -2, 1e-3);
+    EXPECT_NEAR(mean_of("Ng . N"), 1, 1e-3);
+    // The place is that of the point: u runs with x.
+    EXPECT_NEAR(mean_of("abs(xcomp(transform(\"world\", P)) - (2 * u - 1))"), 0, 1e-3);
+}
+
 TEST(AreaLights, WhatIsBehindASurfaceOrTurnedAwayGivesNothing) {
     for (const std::string& lights :
          {ris("PxrRectLight", "Translate 0 0 7 Scale 1 1 -1"), ris("PxrSphereLight", "Translate 0 0 7"),

@@ -273,22 +273,32 @@ TEST_P(LightForms, GiveTheIntegralOverTheirShape) {
 INSTANTIATE_TEST_SUITE_P(, LightForms, ::testing::ValuesIn(light_forms()),
                          [](const ::testing::TestParamInfo<LightForm>& form) { return form.param.name; });
 
-/// The square and the light's mesh are where they were before the shader lifts them.
-TEST(AreaLights, ShineFromWhereTheyAreBeforeTheyAreDisplaced) {
-    const std::string lifted =
-        "Attribute \"trace\" \"int displacements\" [1] Attribute \"displacementbound\" \"sphere\" [2] "
-        "Displacement \"lift\" Polygon \"P\" [-.5 -.5 0 .5 -.5 0 .5 .5 0 -.5 .5 0] ";
-    const std::string mesh =
-        "AttributeBegin Attribute \"visibility\" \"int camera\" [0] Translate 0 0 3 "
-        "Light \"PxrMeshLight\" \"m\" \"int fixedSampleCount\" [256] Scale 1 1 -1 " +
-        lifted + "AttributeEnd ";
+/// The square and the light's mesh are where the shader lifts them to, where rays meet them lifted.
+TEST(AreaLights, ShineFromWhereTheyAreDisplacedTo) {
+    const auto lifted = [](const std::string& displaced) {
+        return "Attribute \"trace\" \"int displacements\" [" + displaced +
+               "] Attribute \"displacementbound\" \"sphere\" [2] "
+               "Displacement \"lift\" Polygon \"P\" [-.5 -.5 0 .5 -.5 0 .5 .5 0 -.5 .5 0] ";
+    };
+    const auto mesh = [](const std::string& shape) {
+        return "AttributeBegin Attribute \"visibility\" \"int camera\" [0] Translate 0 0 3 "
+               "Light \"PxrMeshLight\" \"m\" \"int fixedSampleCount\" [256] Scale 1 1 -1 " +
+               shape + "AttributeEnd ";
+    };
+    const auto square_at = [](const std::string& z) {
+        return "float expected = polygon(P, point(-.1, -.5, " + z + "), point(.9, -.5, " + z +
+               "), point(.9, .5, " + z + "), point(-.1, .5, " + z + "));";
+    };
     for (const auto& [light, expected] :
-         {std::pair{arealight(lifted), kUnitSquare + "expected *= PI;"}, {mesh, kUnitSquare}}) {
+         {std::pair{arealight(lifted("1")), square_at("3.8") + "expected *= PI;"},
+          {mesh(lifted("1")), square_at("2.2")},
+          {arealight(lifted("0")), kUnitSquare + "expected *= PI;"},
+          {mesh(lifted("0")), kUnitSquare}}) {
         Case c = lit_by(light);
         c.shaders["lift"] =
             "displacement lift() { P += vtransform(\"object\", \"current\", vector(.4, 0, .8));"
             "  N = calculatenormal(P); }";
-        expect_lit(c.render(asks(expected)), 0.002, 0.02);
+        expect_lit(c.render(asks(expected)), 0.002, 0.03);
     }
 }
 

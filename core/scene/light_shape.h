@@ -44,7 +44,13 @@ struct LightMesh {
         V3f middle{0, 0, 0};
         float radius = 0;
     };
+    /// What a triangle's corners a, b and c are on their surface, and its derivatives there at shutter open.
+    struct Place {
+        std::array<V2f, 3> uv, st;
+        V3f dPdu{0, 0, 0}, dPdv{0, 0, 0};
+    };
     std::vector<Triangle> triangles;
+    std::vector<Place> places;  ///< of the triangles; empty where the light's shader does not ask
     std::vector<Tube> tubes;
     std::vector<Ball> balls;
 };

@@ -72,17 +72,20 @@ float size_of(const Primitive& primitive) {
     return std::max({size.x, size.y, size.z});
 }
 
-/// A scene of the light's primitives alone, but for those that are balls, each seen by rays and by no shader,
-/// and the camera for which a pixel is what a micropolygon is to be.
+/// A scene of the light's primitives alone, but for those that are balls, each seen by rays, displaced where
+/// rays meet it so, and the camera for which a pixel is what a micropolygon is to be.
 struct LightScene {
     Scene scene;
+    std::vector<uint32_t> numbers;  ///< of the primitives in the frame's scene
     RenderContext context;
 
     LightScene(const RenderContext& of_frame, const LightInstance& light) : context(of_frame) {
         float size = 0;
-        for (const Primitive& primitive : of_frame.scene->primitives) {
+        for (size_t i = 0; i < of_frame.scene->primitives.size(); ++i) {
+            const Primitive& primitive = of_frame.scene->primitives[i];
             if (primitive.emitter.get() != &light || are_balls(primitive)) continue;
             scene.primitives.push_back(primitive);
+            numbers.push_back(static_cast<uint32_t>(i));
             set_rate(scene.primitives.size() - 1, 1);
             size = std::max(size, size_of(primitive));
         }
@@ -105,7 +108,8 @@ struct LightScene {
         attributes->rays.transmission = true;
         attributes->shading_rate = rate;
         attributes->dice = {};
-        attributes->surface = attributes->displacement = nullptr;
+        attributes->surface = nullptr;
+        if (!attributes->rays.displaced) attributes->displacement = nullptr;
         scene.primitives[primitive].attributes = std::move(attributes);
     }
 };
@@ -176,32 +180,66 @@ int every_other_bit(int bits) {
 
 /// Micropolygons in the order of a Z-shaped curve: those that follow each other are neighbours in
 /// both directions, and so parts of the list are parts of the surface that are about as wide as long.
-void add_triangles(const ShadingGrid& grid, float time, LightMesh& mesh) {
-    const auto add = [&](const V3f& a, const V3f& b, const V3f& c) {
-        if (grid.reverse_orientation)
-            mesh.triangles.push_back({a, c, b});
-        else
-            mesh.triangles.push_back({a, b, c});
+void add_triangles(const ShadingGrid& grid, float time, bool with_places, LightMesh& mesh) {
+    const auto add = [&](size_t a, size_t b, size_t c) {
+        if (grid.reverse_orientation) std::swap(b, c);
+        const auto at = [&](size_t vertex) { return place_at(grid, vertex, time); };
+        mesh.triangles.push_back({at(a), at(b), at(c)});
+        if (!with_places) return;
+        LightMesh::Place& place = mesh.places.emplace_back();
+        for (size_t k = 0; const size_t vertex : {a, b, c}) {
+            place.uv[k] = V2f(grid.u[vertex], grid.v[vertex]);
+            place.st[k++] = V2f(grid.s[vertex], grid.t[vertex]);
+        }
+        place.dPdu = grid.dPdu.at(a), place.dPdv = grid.dPdv.at(a);
     };
     for (int place = 0; place < 256; ++place) {
         const int i = every_other_bit(place), j = every_other_bit(place >> 1);
         if (i >= grid.shape.nu || j >= grid.shape.nv) continue;
-        std::array<V3f, 4> corners;
+        std::array<size_t, 4> corners{};
         for (int k = 0; k < 4; ++k)
             corners[static_cast<size_t>(k)] =
-                place_at(grid, static_cast<size_t>(grid.shape.row_index(i + (k & 1), j + (k >> 1))), time);
+                static_cast<size_t>(grid.shape.row_index(i + (k & 1), j + (k >> 1)));
         add(corners[0], corners[1], corners[2]);
         add(corners[3], corners[2], corners[1]);
     }
 }
 
 /// What of a light is a grid, where it is at a time of the shutter.
-void add_grid(const ShadingGrid& grid, float time, LightMesh& mesh) {
+void add_grid(const ShadingGrid& grid, float time, bool with_places, LightMesh& mesh) {
     if (are_tubes(*grid.primitive))
         add_tubes(grid, time, mesh);
     else
-        add_triangles(grid, time, mesh);
+        add_triangles(grid, time, with_places, mesh);
 }
+
+/// Dices a light's primitives.
+class LightDicer {
+  public:
+    LightDicer(const LightScene& parts, const Shading& shading, const TessellationOptions& options)
+        : parts_(parts), shading_(shading), tessellation_(parts.context, options) {}
+
+    /// Calls use(grid, primitive) for each grid, the primitive by its number in the light's scene.
+    template <class Use>
+    void for_each_grid(const Use& use) {
+        for (size_t i = 0; i < tessellation_.subpatches().size() && !parts_.context.is_cancelled(); ++i) {
+            ShadingGrid* const grid = &grid_;
+            tessellation_.dice(i, *grid, dice_);
+            const uint32_t primitive = grid->primitive_index;
+            grid->primitive_index = parts_.numbers[primitive];
+            if (grid->primitive->attributes->displacement) shading_.displace({&grid, 1}, shade_);
+            use(*grid, primitive);
+        }
+    }
+
+  private:
+    const LightScene& parts_;
+    const Shading& shading_;
+    const Tessellation tessellation_;
+    DiceScratch dice_;
+    ShadeScratch shade_;
+    ShadingGrid grid_;
+};
 
 /// What of a light are balls, where they are at a time.
 void add_balls_of(const RenderContext& of_frame, const LightInstance& light, float time, LightMesh& mesh) {
@@ -218,48 +256,42 @@ bool balls_move(const RenderContext& of_frame, const LightInstance& light) {
 }
 
 /// The meshes of a light that moves, behind that at shutter open: all that has been diced, and the balls.
-void add_parts_of_shutter(const RenderContext& of_frame, const LightInstance& light,
-                          const Tessellation& tessellation, std::vector<LightMesh>& meshes) {
+void add_parts_of_shutter(const RenderContext& of_frame, const Shading::MeshLight& light, LightDicer& dicer,
+                          std::vector<LightMesh>& meshes) {
     const LightMesh& open = meshes.front();
     const size_t pieces = open.triangles.size() + open.tubes.size() + open.balls.size();
     const size_t parts = std::clamp<size_t>(
         static_cast<size_t>(kMostMicropolygons) / std::max<size_t>(pieces, 1), 2, kMostParts);
     meshes.resize(1 + parts);
-    DiceScratch scratch;
-    ShadingGrid grid;
-    for (size_t i = 0; i < tessellation.subpatches().size() && !of_frame.is_cancelled(); ++i) {
-        tessellation.dice(i, grid, scratch);
+    dicer.for_each_grid([&](const ShadingGrid& grid, uint32_t) {
         for (size_t part = 0; part < parts; ++part)
-            add_grid(grid, middle_of_part(part, parts), meshes[1 + part]);
-    }
+            add_grid(grid, middle_of_part(part, parts), light.asks_place, meshes[1 + part]);
+    });
     for (size_t part = 0; part < parts; ++part)
-        add_balls_of(of_frame, light, middle_of_part(part, parts), meshes[1 + part]);
+        add_balls_of(of_frame, *light.light, middle_of_part(part, parts), meshes[1 + part]);
 }
 
-std::vector<LightMesh> meshes_of(const RenderContext& of_frame, const LightInstance& light,
+std::vector<LightMesh> meshes_of(const RenderContext& of_frame, const Shading::MeshLight& light,
                                  const Shading& shading, size_t most_bytes) {
-    LightScene parts(of_frame, light);
+    LightScene parts(of_frame, *light.light);
     std::vector<LightMesh> meshes(1);
     LightMesh& mesh = meshes.front();
-    bool moves = balls_move(of_frame, light);
+    bool moves = balls_move(of_frame, *light.light);
     TessellationOptions options;
     options.depth_heights = shading.depth_heights();
     options.most_bytes = most_bytes, options.seen_by = SeenBy::Rays;
     for (int tries = 1; !of_frame.is_cancelled(); ++tries) {
-        const Tessellation tessellation(parts.context, options);
-        DiceScratch scratch;
-        ShadingGrid grid;
+        LightDicer dicer(parts, shading, options);
         std::vector<Turning> turnings(parts.scene.primitives.size());
         mesh = {};
-        add_balls_of(of_frame, light, 0, mesh);
-        for (size_t i = 0; i < tessellation.subpatches().size() && !of_frame.is_cancelled(); ++i) {
-            tessellation.dice(i, grid, scratch);
-            add_grid(grid, 0, mesh);
+        add_balls_of(of_frame, *light.light, 0, mesh);
+        dicer.for_each_grid([&](const ShadingGrid& grid, uint32_t primitive) {
+            add_grid(grid, 0, light.asks_place, mesh);
             moves |= grid.P.size() > 1;
-            turnings[tessellation.subpatches()[i].primitive].add(grid);
-        }
+            turnings[primitive].add(grid);
+        });
         if (tries < kMostTries && refine(parts, turnings)) continue;
-        if (moves) add_parts_of_shutter(of_frame, light, tessellation, meshes);
+        if (moves) add_parts_of_shutter(of_frame, light, dicer, meshes);
         break;
     }
     return meshes;
@@ -268,7 +300,7 @@ std::vector<LightMesh> meshes_of(const RenderContext& of_frame, const LightInsta
 }  // namespace
 
 void make_light_meshes(const RenderContext& context, Shading& shading, size_t most_bytes) {
-    const std::vector<const LightInstance*> lights = shading.mesh_lights();
+    const std::vector<Shading::MeshLight> lights = shading.mesh_lights();
     if (lights.empty()) return;
     // Rays meet the scene without the camera's motion, and at one time where none asks for others.
     RenderContext of_rays = context;
@@ -276,7 +308,8 @@ void make_light_meshes(const RenderContext& context, Shading& shading, size_t mo
     const std::unique_ptr<const Scene> held = of_rays.motion ? held_scene(*context.scene) : nullptr;
     if (held) of_rays.scene = held.get();
     LightMeshes meshes;
-    for (const LightInstance* light : lights) meshes[light] = meshes_of(of_rays, *light, shading, most_bytes);
+    for (const Shading::MeshLight& light : lights)
+        meshes[light.light] = meshes_of(of_rays, light, shading, most_bytes);
     shading.set_light_meshes(meshes);
 }
 

@@ -18,6 +18,9 @@ struct LightSample {
     V3f N{0, 0, 1};  ///< of unit length, to where it shines; of lights that are nowhere, along the light
     float solid_angle = 0;  ///< that it stands for if it is the only one, 1 / density; 0: nothing arrives
     V3f radiance{1, 1, 1};  ///< of a dome, by its map
+    /// Where P is on the surface of a mesh that knows (LightMesh::places); else 0.
+    V2f uv{0, 0}, st{0, 0};
+    V3f dPdu{0, 0, 0}, dPdv{0, 0, 0};
 };
 
 /// A light's shape. Immutable: threads share it.

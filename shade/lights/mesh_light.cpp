@@ -16,7 +16,7 @@ constexpr size_t kStrips = 16;
 
 /// A place on a curve through all directions: normals that follow each other there are much alike. (Z-shaped,
 /// over the octahedron unfolded to a square, 64 steps each way.)
-uint32_t place_of(const V3d& normal) {
+uint32_t direction_of(const V3d& normal) {
     const double sum = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
     double a = normal.x / sum, b = normal.y / sum;
     if (normal.z < 0) {
@@ -39,8 +39,11 @@ uint32_t place_of(const V3d& normal) {
 class MeshLight final : public LightSampler {
   public:
     MeshLight(const LightMesh& mesh, bool two_sided) {
-        for (const LightMesh::Triangle& t : mesh.triangles)
-            if (take(area_of(t))) faces_.emplace_back(t, two_sided);
+        for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+            if (!take(area_of(mesh.triangles[i]))) continue;
+            faces_.emplace_back(mesh.triangles[i], two_sided, places_.size());
+            if (!mesh.places.empty()) places_.push_back(mesh.places[i]);
+        }
         for (const LightMesh::Tube& tube : mesh.tubes)
             if (is_finite(wide(tube.from) + wide(tube.to)) && take(trapeze::area_of(tube)))
                 tubes_.push_back(tube);
@@ -73,10 +76,14 @@ class MeshLight final : public LightSampler {
 
   private:
     struct Face {
-        Face(const LightMesh::Triangle& t, bool both)
-            : triangle(t), place(place_of(cross_of(t).normalized())), two_sided(both) {}
+        Face(const LightMesh::Triangle& t, bool both, size_t its_number)
+            : triangle(t),
+              direction(direction_of(cross_of(t).normalized())),
+              number(static_cast<uint32_t>(its_number)),
+              two_sided(both) {}
         LightMesh::Triangle triangle;
-        uint32_t place;  ///< of the normal
+        uint32_t direction;  ///< of the normal
+        uint32_t number;     ///< in places_, if that has any
         bool two_sided;
     };
     /// A part of a list, by area, and how far in it, 0 to 1.
@@ -135,9 +142,18 @@ class MeshLight final : public LightSampler {
 
     LightSample on_face(const V3f& P, const Face& face, double x, double y) const {
         const LightMesh::Triangle& t = face.triangle;
-        const double root = std::sqrt(x);
-        const V3d place = wide(t.a) * (1 - root) + wide(t.b) * (root * (1 - y)) + wide(t.c) * (root * y);
-        return sent(P, {place, cross_of(t).normalized()}, face.two_sided);
+        const double root = std::sqrt(x), of_a = 1 - root, of_b = root * (1 - y), of_c = root * y;
+        const V3d place = wide(t.a) * of_a + wide(t.b) * of_b + wide(t.c) * of_c;
+        LightSample made = sent(P, {place, cross_of(t).normalized()}, face.two_sided);
+        if (places_.empty()) return made;
+        const LightMesh::Place& on = places_[face.number];
+        const auto mixed = [&](const std::array<V2f, 3>& corners) {
+            return corners[0] * static_cast<float>(of_a) + corners[1] * static_cast<float>(of_b) +
+                   corners[2] * static_cast<float>(of_c);
+        };
+        made.uv = mixed(on.uv), made.st = mixed(on.st);
+        made.dPdu = on.dPdu, made.dPdv = on.dPdv;
+        return made;
     }
 
     /// What P gets of a place.
@@ -158,9 +174,10 @@ class MeshLight final : public LightSampler {
     }
 
     static double area_of(const LightMesh::Triangle& t) { return cross_of(t).length() / 2; }
-    static bool by_normal(const Face& a, const Face& b) { return a.place < b.place; }
+    static bool by_normal(const Face& a, const Face& b) { return a.direction < b.direction; }
 
     std::vector<Face> faces_;
+    std::vector<LightMesh::Place> places_;
     std::vector<LightMesh::Tube> tubes_;
     std::vector<LightMesh::Ball> balls_;
     std::vector<double> ends_;    ///< area of the pieces up to each: faces, tubes, balls

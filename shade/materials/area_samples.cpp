@@ -14,6 +14,8 @@ namespace {
 
 /// Planes of samples_, by number: P, N and radiance have three planes each.
 constexpr size_t kSampleP = 0, kSampleN = 3, kRadiance = 6, kSolidAngle = 9, kArea = 10, kSamplePlanes = 11;
+/// Behind these, where the light's shader asks: two planes each, and three.
+constexpr size_t kUv = 11, kSt = 13, kDPdu = 15, kDPdv = 18, kPlanesWithPlace = 21;
 
 /// Tells the seeds of area lights from those of other random numbers at a vertex.
 constexpr uint32_t kAreaLights = 0x6c616d70, kLightTimes = 0x74696d65;
@@ -50,7 +52,8 @@ void AreaSamples::start(const vm::Context& surroundings, size_t lanes, const Pla
 }
 
 std::vector<float> AreaSamples::take(const Turn& turn, const Lamp& lamp, const vm::Operand& P) {
-    samples_.assign(kSamplePlanes * lanes_, 0);
+    const bool asks_place = lamp.asks_place();
+    samples_.assign((asks_place ? kPlanesWithPlace : kSamplePlanes) * lanes_, 0);
     const auto put = [&](size_t plane, size_t lane, const V3f& v) {
         for (int k = 0; k < 3; ++k) samples_[(plane + static_cast<size_t>(k)) * lanes_ + lane] = v[k];
     };
@@ -89,6 +92,12 @@ std::vector<float> AreaSamples::take(const Turn& turn, const Lamp& lamp, const v
         put(kSampleP, lane, made.P), put(kSampleN, lane, made.N), put(kRadiance, lane, made.radiance);
         samples_[kSolidAngle * lanes_ + lane] = std::isfinite(made.solid_angle) ? made.solid_angle : 0;
         samples_[kArea * lanes_ + lane] = sampler->area();
+        if (!asks_place) return;
+        put(kDPdu, lane, made.dPdu), put(kDPdv, lane, made.dPdv);
+        for (size_t k = 0; k < 2; ++k) {
+            samples_[(kUv + k) * lanes_ + lane] = made.uv[static_cast<int>(k)];
+            samples_[(kSt + k) * lanes_ + lane] = made.st[static_cast<int>(k)];
+        }
     };
     if (!surroundings_->batch)
         for (size_t lane = 0; lane < lanes_; ++lane) choose({lane, hash(static_cast<uint32_t>(lane), seed_)});
@@ -123,9 +132,15 @@ void AreaSamples::tell(const Lamp& lamp, vm::Registers& registers) const {
         return planes_of(const_cast<float*>(samples_.data()) + plane * lanes_, lanes_);  // an input
     };
     const rsl::Program& program = registers.program();
-    for (const auto& [name, plane] : {std::pair("P", kSampleP), {"N", kSampleN}})
+    const auto set = [&](const char* name, size_t plane, int width) {
         if (const rsl::RegisterId* id = program.find_global(name))
-            copy_operand(planes(plane), 3, lanes_, registers.operand(*id));
+            copy_operand(planes(plane), width, lanes_, registers.operand(*id));
+    };
+    set("P", kSampleP, 3), set("N", kSampleN, 3), set("Ng", kSampleN, 3);
+    if (samples_.size() == kPlanesWithPlace * lanes_) {
+        set("u", kUv, 1), set("v", kUv + 1, 1), set("s", kSt, 1), set("t", kSt + 1, 1);
+        set("dPdu", kDPdu, 3), set("dPdv", kDPdv, 3);
+    }
     for (const rsl::ProgramParameter& parameter : program.parameters) {
         const bool is_number = parameter.type == rsl::Type{rsl::Base::Float, 0};
         if (parameter.name == "__solidangle" && is_number)

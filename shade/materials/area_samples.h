@@ -34,7 +34,8 @@ class AreaSamples {
     /// lamp [decision 0019]: a vertex' places are well apart, and those of vertices have nothing in common.
     /// Returns when each is taken, where the light moves or rays have times of their own; else nothing.
     std::vector<float> take(const Turn& turn, const Lamp& lamp, const vm::Operand& P);
-    /// Tells the light's shader what was taken: P and N are the sample's; "__solidangle", "__radiance" and
+    /// Tells the light's shader what was taken: P, N and Ng are the sample's, and so are u, v, s, t, dPdu and
+    /// dPdv of meshes; "__solidangle", "__radiance" and
     /// "__area" are what it stands for.
     void tell(const Lamp& lamp, vm::Registers& registers) const;
     /// Turns the ways to what was taken back to how surfaces lie as they are shaded; `L`: 3 planes.

@@ -145,13 +145,19 @@ std::optional<vm::Operand> LightRig::footprint_plane(vm::Predefined variable) co
     return planes_of(const_cast<float*>(variable == Predefined::du ? at.du : at.dv), lanes_);  // an input
 }
 
+/// Whether AreaSamples::tell() sets it for every light with an area.
+bool LightRig::is_of_sample(vm::Predefined variable) {
+    using vm::Predefined;
+    return variable == Predefined::P || variable == Predefined::N || variable == Predefined::Ng;
+}
+
 void LightRig::set_variables(vm::Registers& registers, const Lamp& lamp, const vm::Operand& P) const {
     using vm::Predefined;
     for (const vm::StartValue& value : registers.executable().start_values()) {
         const rsl::RegisterId id = value.id;
         const vm::Operand& operand = registers.operand(id);
         const Predefined variable = value.variable;
-        if (lamp.area && (variable == Predefined::P || variable == Predefined::N)) {
+        if (lamp.area && is_of_sample(variable)) {
             continue;                                                          // AreaSamples::tell()
         } else if (variable == Predefined::Ps || variable == Predefined::I) {  // the eye is at the origin
             copy_operand(P, 3, lanes_, operand);

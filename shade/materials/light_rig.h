@@ -57,6 +57,7 @@ class LightRig : public vm::Lights {
     void give(vm::Registers& registers, std::span<const Taken> taken, const uint32_t* lanes) const;
     Task<> run(size_t light, Slot& slot, const vm::LightRequest& request, std::span<const Taken> taken);
     void tell(const Turn& turn, const vm::LightOutput& output, const vm::Registers& registers, Slot& slot);
+    static bool is_of_sample(vm::Predefined variable);
     void set_variables(vm::Registers& registers, const Lamp& lamp, const vm::Operand& P) const;
     std::optional<float> number_of(vm::Predefined variable) const;
     std::optional<vm::Operand> footprint_plane(vm::Predefined variable) const;

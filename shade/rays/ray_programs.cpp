@@ -25,7 +25,7 @@ bool looks_at_map(const rsl::Program& program, const rsl::Instruction& i) {
 
 bool calls(const rsl::Program& program, const rsl::Code& code, bool maps_are_traced) {
     return std::ranges::any_of(code, [&](const rsl::Instruction& i) {
-        return (rsl::sends_rays(i.op) && !gathers_of_map(program, i) && !looks_at_map(program, i)) ||
+        return (rsl::sends_rays(i.op) && !gathers_of_map(program, i)) ||
                ((i.op == Op::Shadow || i.op == Op::Environment) && maps_are_traced);
     });
 }
@@ -155,7 +155,8 @@ bool knows_traced_map(const BoundShader& shader) {
 bool asks_clouds_alone(const BoundShader& shader) {
     const rsl::Program& program = shader.program();
     return !traces_maps(program, shader) && std::ranges::all_of(program.code, [&](const rsl::Instruction& i) {
-        return !rsl::sends_rays(i.op) || gathers_of_map(program, i) || is_of_cloud(program, i);
+        return !rsl::sends_rays(i.op) || gathers_of_map(program, i) || looks_at_map(program, i) ||
+               is_of_cloud(program, i);
     });
 }
 

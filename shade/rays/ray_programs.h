@@ -16,7 +16,8 @@ bool asks_for_rays(const BoundShader& shader, const std::set<std::string>* varie
 /// Whether the shader knows the name by which rays are asked in place of a map.
 bool knows_traced_map(const BoundShader& shader);
 
-/// Whether all calls of the shader that may trace ask files of point clouds (occlusion(), "pointbased").
+/// Whether all calls of the shader that may trace ask files of point clouds (occlusion(), "pointbased"), or
+/// maps (indirectdiffuse()).
 bool asks_clouds_alone(const BoundShader& shader);
 
 /// Whether a surface shader makes another opacity than Os, which is the primitive's own.

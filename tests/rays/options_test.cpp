@@ -388,6 +388,10 @@ TEST_F(RaySky, HasAMeanOfItsOwn) {
     EXPECT_NEAR(mean_of("upper", "0, 1, 0"), 0.5, 0.02);
     // The part of the sky above, by the cosine to a way that is turned by an angle a: (1 + cos a) / 2.
     EXPECT_NEAR(mean_of("upper", "0, .8, .6"), 0.8, 0.02);
+    // Where it is all that is asked nobody misses things that rays would see.
+    c.things.clear(), c.said.clear();
+    EXPECT_NEAR(mean_of("tint", "1, 2, 3"), 0.25, 1e-5);
+    EXPECT_TRUE(c.said.empty());
 }
 
 /// By discs what none of them covers, as by rays: the same map in the same space, and nothing of it behind a
