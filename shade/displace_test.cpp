@@ -203,6 +203,30 @@ TEST(Displacement, BySurfacesThatAreClassesWithinTheBound) {
     EXPECT_TRUE(Shading(scene.context).displacing_surfaces()(0));
 }
 
+/// What displacement() leaves in the class's members the methods that shade find there; what begin() does
+/// stays where nothing displaces.
+TEST(Displacement, LeavesMembersOfClassesToTheirSurfaces) {
+    ShadingScene scene;
+    const ShaderFolder folder;
+    folder.write(
+        "both",
+        "class both() {"
+        "  varying float high = 0; varying color tint = 0; uniform float k = 3; string word = \"none\";"
+        "  public void begin() { high = 9; k = 4; }"
+        "  public void displacement(output point P; output normal N) {"
+        "    high = .25 * s; tint = color(s, t, 1); word = \"moved\"; k += 1; P += high * normalize(N); }"
+        "  public void surface(output color Ci, Oi) {"
+        "    Oi = 1; Ci = color(high, comp(tint, 1), k + (word == \"moved\" ? 10 : 0)); }"
+        "}");
+    scene.scene.options.search_paths["shader"] = {folder.path()};
+    scene.attributes->displacement_bound = 0.5f;
+    scene.surface("both");
+    const ShadingGrid before = scene.grid(), after = scene.shaded(before);
+    EXPECT_TRUE(scene.reported.empty());
+    for (size_t i = 0; i < before.vertex_count(); ++i)
+        expect_near_triple(after.Ci.at(i), V3f(.25f * before.s[i], before.t[i], 15), 1e-6f);
+}
+
 /// Files may hold a shader under another name.
 TEST(Displacement, ByAClassInAFileOfAnotherName) {
     MovingClass scene;

@@ -39,26 +39,78 @@ const RendererMethod* renderer_method(std::string_view name) {
     return found == std::end(kRendererMethods) ? nullptr : found;
 }
 
+ExpressionPtr expression_of(Expression::Kind kind, std::string_view text, SourceLocation at) {
+    auto made = std::make_unique<Expression>();
+    made->kind = kind;
+    made->text = text;
+    made->at = at;
+    return made;
+}
+
+void add_child(Expression& to, Expression::Kind kind, std::string_view text) {
+    to.children.push_back(expression_of(kind, text, to.at));
+    to.height = 2;
+}
+
+StatementPtr evaluate(ExpressionPtr expression) {
+    auto statement = std::make_unique<Statement>();
+    statement->kind = Statement::Kind::Evaluate;
+    statement->at = expression->at;
+    statement->expressions.push_back(std::move(expression));
+    return statement;
+}
+
 /// A call of a method of the renderer's, with the variables that stand for its parameters.
 StatementPtr call_of(const std::string& name, const std::vector<std::string_view>& variables,
                      SourceLocation at) {
-    auto call = std::make_unique<Expression>();
-    call->kind = Expression::Kind::Call;
-    call->text = name;
-    call->at = at;
-    for (const std::string_view variable : variables) {
-        auto argument = std::make_unique<Expression>();
-        argument->kind = Expression::Kind::Variable;
-        argument->text = variable;
-        argument->at = at;
-        call->children.push_back(std::move(argument));
-        call->height = 2;
+    ExpressionPtr call = expression_of(Expression::Kind::Call, name, at);
+    for (const std::string_view variable : variables) add_child(*call, Expression::Kind::Variable, variable);
+    return evaluate(std::move(call));
+}
+
+// A class that shades and displaces is two shaders: what displaces leaves its members in output parameters
+// under names that no source has, and what shades asks for them by a message, as displacement() does.
+
+std::string handed_name(const Variable& member) {
+    return "member:" + member.name;
+}
+
+/// Members that are handed over: numbers, points and their like, and texts.
+std::vector<const Variable*> handed_members(const std::vector<StatementPtr>& members) {
+    std::vector<const Variable*> handed;
+    for (const StatementPtr& statement : members)
+        for (const auto& variable : statement->variables)
+            if (!variable->structure && !variable->type.is_array()) handed.push_back(variable.get());
+    return handed;
+}
+
+void hand_over(const std::vector<const Variable*>& members, Shader& displacement) {
+    for (const Variable* member : members) {
+        auto parameter = std::make_unique<Variable>();
+        parameter->name = handed_name(*member);
+        parameter->type = member->type;
+        parameter->storage = member->storage == Storage::Uniform ? Storage::Uniform : Storage::Varying;
+        parameter->kind = Variable::Kind::Parameter;
+        parameter->output = true;
+        parameter->at = member->at;
+        const bool is_text = member->type.base == Base::String;
+        parameter->initial =
+            expression_of(is_text ? Expression::Kind::Text : Expression::Kind::Number, "", member->at);
+        ExpressionPtr told = expression_of(Expression::Kind::Assignment, "", member->at);
+        add_child(*told, Expression::Kind::Variable, parameter->name);
+        add_child(*told, Expression::Kind::Variable, member->name);
+        displacement.body->children.push_back(evaluate(std::move(told)));
+        displacement.parameters.push_back(std::move(parameter));
     }
-    auto statement = std::make_unique<Statement>();
-    statement->kind = Statement::Kind::Evaluate;
-    statement->at = at;
-    statement->expressions.push_back(std::move(call));
-    return statement;
+}
+
+void take_over(const std::vector<const Variable*>& members, std::vector<StatementPtr>& calls) {
+    for (const Variable* member : members) {
+        ExpressionPtr asked = expression_of(Expression::Kind::Call, "displacement", member->at);
+        add_child(*asked, Expression::Kind::Text, handed_name(*member));
+        add_child(*asked, Expression::Kind::Variable, member->name);
+        calls.push_back(evaluate(std::move(asked)));
+    }
 }
 
 }  // namespace
@@ -213,11 +265,16 @@ std::unique_ptr<Shader> Parser::shader_of(ClassParts parts, ShaderKind kind) {
     shader->body->kind = Statement::Kind::Block;
     shader->body->at = parts.at;
     std::vector<StatementPtr>& statements = shader->body->children;
+    const ClassParts::Method* const displaces = parts.find("displacement");
+    std::vector<const Variable*> handed;
+    if (displaces && parts.kind() != ShaderKind::Displacement) handed = handed_members(parts.members);
     for (StatementPtr& member : parts.members) statements.push_back(std::move(member));
     for (size_t i = 0; i < parts.methods.size(); ++i) parts.numbers[parts.methods[i].name].push_back(i);
     // Others, such as those that shade where this one displaces, may name what this kind does not have.
     std::vector<StatementPtr> calls;
+    bool takes_over = kind != ShaderKind::Displacement;
     for (const RendererMethod& called : kRendererMethods) {
+        if (called.kind && std::exchange(takes_over, false)) take_over(handed, calls);
         const ClassParts::Method* const method = parts.find(called.name);
         if (!method || (called.kind && *called.kind != kind)) continue;
         const bool is_part = called.name == "lighting" || called.name == "postlighting";
@@ -226,6 +283,7 @@ std::unique_ptr<Shader> Parser::shader_of(ClassParts parts, ShaderKind kind) {
         calls.push_back(call_of(method->name, method->variables, method->at));
     }
     std::ranges::move(calls, std::back_inserter(statements));
+    if (kind == ShaderKind::Displacement) hand_over(handed, *shader);
     return shader;
 }
 
