@@ -84,6 +84,10 @@ HWY_INLINE PairLanes gather_pairs(const int64_t* pairs, hn::VFromD<hn::RebindToS
 /// Samples past the last weigh nothing.
 void weigh_samples(const FilterAxis& axis, const float* positions, size_t count, int pixel, int columns,
                    float* planes, size_t padded) {
+    if (axis.only_weight) {
+        std::fill_n(std::fill_n(planes, count, *axis.only_weight), padded - count, 0.0f);
+        return;
+    }
     const F d;
     const hn::RebindToSigned<F> di;
     for (size_t s = 0; s < padded; s += hn::Lanes(d)) {

@@ -138,6 +138,10 @@ void tabulate(FilterAxis& axis, const FilterRow& row) {
                 std::bit_cast<int64_t>(FilterAxis::Pair{weight, weight_at(phase + 1) - weight}));
         }
     }
+    const auto is_first = [&](int64_t pair) { return pair == axis.phases.front(); };
+    const auto [weight, step] = std::bit_cast<FilterAxis::Pair>(axis.phases.front());
+    if (axis.columns() == 1 && axis.rim <= 0 && step == 0 && std::ranges::all_of(axis.phases, is_first))
+        axis.only_weight = weight;
 }
 
 /// A width that a kernel can be made for.

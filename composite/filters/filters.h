@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -43,6 +44,9 @@ struct FilterAxis {
     /// Of a separable filter: kPhases + 1 Pairs of each tap, tap by tap; as integers, so that a vector load
     /// brings both numbers.
     std::vector<int64_t> phases;
+    /// The weight of all samples of a pixel, where it is one and goes to their own pixel alone: of a box of
+    /// one pixel.
+    std::optional<float> only_weight;
 
     const int64_t* tap(int i) const { return phases.data() + static_cast<size_t>(i) * (kPhases + 1); }
 

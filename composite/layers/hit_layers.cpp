@@ -1,6 +1,7 @@
 #include "composite/layers/hit_layers.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace trapeze {
 
@@ -37,13 +38,18 @@ void HitLayers::interpolate(const SampleTile& samples, const HitBuffer& hits, si
         planes_[k].resize(std::max(planes_[k].size(), count));
         planes[k] = planes_[k].data();
     }
+    // Mostly each sample has one hit. Both loops are then ones that compilers make vectors of.
     bool one_each = true;
+    for (size_t sample = begin; sample < end; ++sample)
+        one_each &= hits.first[sample + 1] == hits.first[sample] + 1;
     sample_of_.resize(std::max(sample_of_.size(), count));
-    for (size_t sample = begin; sample < end; ++sample) {
-        const uint32_t from = hits.first[sample], to = hits.first[sample + 1];
-        one_each = one_each && to == from + 1;
-        for (uint32_t hit = from; hit < to; ++hit) sample_of_[hit - first_] = static_cast<uint32_t>(sample);
-    }
+    if (one_each)
+        std::iota(sample_of_.begin(), sample_of_.begin() + static_cast<std::ptrdiff_t>(count),
+                  static_cast<uint32_t>(begin));
+    else
+        for (size_t sample = begin; sample < end; ++sample)
+            std::fill(sample_of_.begin() + (hits.first[sample] - first_),
+                      sample_of_.begin() + (hits.first[sample + 1] - first_), static_cast<uint32_t>(sample));
     kinds_ = interpolate_hits(
         {{hits.hits.data() + first_, count}, sample_of_.data(), samples.rays.data(), grids, planes},
         corners_);

@@ -7,6 +7,7 @@
 #include "composite/displays/write_displays.h"
 #include "composite/film/film.h"
 #include "composite/film/raster_harness.h"
+#include "tests/bench/run_benchmarks.h"
 
 namespace trapeze {
 namespace {
@@ -98,3 +99,7 @@ BENCHMARK_CAPTURE(film_add, constant_catmull_rom4, View::Constant, "catmull-rom"
 
 }  // namespace
 }  // namespace trapeze
+
+int main(int argc, char** argv) {
+    return trapeze::run_benchmarks(argc, argv);
+}
