@@ -125,7 +125,8 @@ std::string soap() {
 
 TEST_F(Layers, OfBlurredThingsAreTheSameInPasses) {
     for (const char* limit : {"", "Hider \"hidden\" \"int maxvpdepth\" 5\n",
-                              "Hider \"hidden\" \"string depthfilter\" \"midpoint\"\n"}) {
+                              "Hider \"hidden\" \"string depthfilter\" \"midpoint\"\n",
+                              "Option \"limits\" \"zthreshold\" [.1 .2 .25]\n"}) {
         const FrameResult whole = render(limit + soap());
         EXPECT_EQ(whole.stats.layer_passes, 0u);
         for (const char* method : {"raytrace", "raytrace:tree=paper", "bruteforce"})
@@ -138,6 +139,24 @@ TEST_F(Layers, OfBlurredThingsAreTheSameInPasses) {
                 EXPECT_TRUE(same_bits(in_passes.image, whole.image)) << method << threads << limit;
             }
     }
+}
+
+/// As shadow maps of clear things want it: what lets more through has no depth, whatever else it does.
+TEST_F(Layers, ThatAreTooClearHaveNoDepth) {
+    const auto depth = [&](const std::string& option) {
+        const FrameResult frame = render(
+            option +
+            "Format 4 4 1 PixelSamples 2 2 Projection \"orthographic\" Display \"a.exr\" \"openexr\" \"rgbaz\"\n"
+            "WorldBegin Surface \"constant\"\n"
+            "Opacity .25 .25 .25 Polygon \"P\" [-2 -2 3 2 -2 3 2 2 3 -2 2 3]\n"
+            "Opacity .5 .5 .5 Polygon \"P\" [-2 -2 4 2 -2 4 2 2 4 -2 2 4]\n"
+            "Opacity 1 1 1 Polygon \"P\" [-2 -2 5 2 -2 5 2 2 5 -2 2 5]\nWorldEnd\n");
+        return frame.image.z.empty() ? -1 : frame.image.z[5];
+    };
+    EXPECT_EQ(depth(""), 3);
+    EXPECT_EQ(depth("Option \"limits\" \"zthreshold\" [.25 .25 .25]\n"), 3);
+    EXPECT_EQ(depth("Option \"limits\" \"color zthreshold\" [.5 .5 .5]\n"), 4);
+    EXPECT_EQ(depth("Option \"limits\" \"zthreshold\" [.996 .996 .996]\n"), 5);
 }
 
 /// Balls around the eye and before it, cut out of each other in threes, none of them opaque but one behind

@@ -50,6 +50,7 @@ Film::Film(const RenderContext& context, bool record_ids, bool leave_gamma)
     rules_.layers.deep_tolerance = deep_tolerance(options);
     rules_.aovs = &aovs_;
     rules_.depth_filter = depth_filter_of(context);
+    rules_.depth_rule = depth_rule(options);
     rules_.wants_primitives = record_ids || wants_ids(options);
 
     image_.width = context.camera.width, image_.height = context.camera.height;
@@ -81,8 +82,7 @@ void Film::add(const SampleTile& samples, const LayerStack& stack) {
 }
 
 void Film::begin_stack(size_t sample_count, LayerStack& stack) const {
-    stack.begin(sample_count, aovs_, rules_.depth_filter == DepthFilter::Midpoint,
-                rules_.layers.want_layers());
+    stack.begin(sample_count, aovs_, rules_.depth_rule, rules_.layers.want_layers());
 }
 
 void Film::add(const GatheredSamples& gathered) {

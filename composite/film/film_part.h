@@ -25,9 +25,9 @@ struct FilmPart {
         if (!stack) layers.interpolate(samples, hits, begin, end, grids);
     }
     /// Of a sample that has hits.
-    SampleColor color(size_t sample, const HitLayers& layers, bool midpoint) const {
+    SampleColor color(size_t sample, const HitLayers& layers, const DepthRule& rule) const {
         if (stack) return stack->color(sample);
-        return resolve_layers(hits.of(sample), layers, hits.first[sample], grids, midpoint);
+        return resolve_layers(hits.of(sample), layers, hits.first[sample], grids, rule);
     }
     /// Output variables of a sample that has hits; returns the depth of the first layer that shows something.
     float variables(size_t sample, const AovLayout& layout, float* values) const {

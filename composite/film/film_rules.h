@@ -10,6 +10,7 @@ namespace trapeze {
 struct FilmRules {
     const AovLayout* aovs = nullptr;
     DepthFilter depth_filter = DepthFilter::Min;
+    DepthRule depth_rule = {};
     LayerRules layers = {};
     bool wants_primitives = false;  ///< which is seen at a pixel's centre
 };

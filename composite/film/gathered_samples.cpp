@@ -19,8 +19,7 @@ void GatheredSamples::begin(const PixelRect& pixels, size_t most, const FilmRule
 }
 
 void GatheredSamples::begin_stack(size_t sample_count, LayerStack& stack) const {
-    stack.begin(sample_count, *rules_->aovs, rules_->depth_filter == DepthFilter::Midpoint,
-                rules_->layers.want_layers());
+    stack.begin(sample_count, *rules_->aovs, rules_->depth_rule, rules_->layers.want_layers());
 }
 
 void GatheredSamples::add(const SampleTile& samples, const HitBuffer& hits, const Grids& grids) {

@@ -35,7 +35,7 @@ void PixelSamples::see(const FilmPart& part, size_t first) {
         see_one_by_one(part, first);
     else if (hit_layers_.all_cover())
         see_covered(part, first);
-    else if (rules_.depth_filter == DepthFilter::Midpoint)
+    else if (!rules_.depth_rule.is_plain())
         see_one_by_one(part, first);
     else
         see_plain_layers(part, first);
@@ -43,10 +43,10 @@ void PixelSamples::see(const FilmPart& part, size_t first) {
 }
 
 void PixelSamples::see_one_by_one(const FilmPart& part, size_t first) {
-    const bool midpoint = rules_.depth_filter == DepthFilter::Midpoint;
     for (size_t s = 0; s < count(); ++s) {
         const bool has_hits = part.has_hits(first + s);
-        const SampleColor color = has_hits ? part.color(first + s, hit_layers_, midpoint) : SampleColor{};
+        const SampleColor color =
+            has_hits ? part.color(first + s, hit_layers_, rules_.depth_rule) : SampleColor{};
         set_color(s, color.rgba, color.depth, color.primitive, has_hits);
     }
 }
@@ -79,7 +79,7 @@ void PixelSamples::see_covered(const FilmPart& part, size_t first) {
     std::ranges::fill(has_hits_, uint8_t{1});
     sees_something_ = true;
     // "midpoint" wants a second surface.
-    const bool has_depth = rules_.depth_filter != DepthFilter::Midpoint;
+    const bool has_depth = !rules_.depth_rule.midpoint;
     for (size_t s = 0; s < count(); ++s) depths_[s] = has_depth ? hits[s].depth : kInfinity;
     if (!rules_.wants_primitives) return;
     for (size_t s = 0; s < count(); ++s)

@@ -8,10 +8,10 @@ constexpr size_t kHitsAtOnce = 1024;
 
 }  // namespace
 
-void LayerStack::begin(size_t sample_count, const AovLayout& aovs, bool midpoint, bool keeps_layers) {
+void LayerStack::begin(size_t sample_count, const AovLayout& aovs, const DepthRule& rule, bool keeps_layers) {
     aovs_ = &aovs;
     layers_.forget();
-    midpoint_ = midpoint;
+    rule_ = rule;
     sums_.assign(sample_count, {});
     has_hits_.assign(sample_count, 0);
     const auto channels = static_cast<size_t>(aovs.channel_count);
@@ -35,7 +35,7 @@ void LayerStack::add(const SampleTile& samples, const HitBuffer& hits, const Gri
             layers_.interpolate(samples, hits, sample, interpolated, grids);
         }
         has_hits_[sample] = 1;
-        add_layers(of_sample, layers_, hits.first[sample], grids, midpoint_, sums_[sample]);
+        add_layers(of_sample, layers_, hits.first[sample], grids, rule_, sums_[sample]);
         if (!layers_of_.empty())
             see_layers(samples.rays[sample], of_sample, grids, transmissions_[sample], layers_of_[sample]);
         if (!progress_.empty())

@@ -17,7 +17,7 @@ class LayerStack {
   public:
     /// All samples have gathered nothing. The layout outlives the stack. `keeps_layers`: layers() will be
     /// asked.
-    void begin(size_t sample_count, const AovLayout& aovs, bool midpoint, bool keeps_layers = false);
+    void begin(size_t sample_count, const AovLayout& aovs, const DepthRule& rule, bool keeps_layers = false);
 
     /// Adds the next hits of some samples, which are in ascending order.
     void add(const SampleTile& samples, const HitBuffer& hits, const Grids& grids,
@@ -27,7 +27,7 @@ class LayerStack {
     bool is_hidden(size_t sample) const { return sums_[sample].is_hidden; }
     /// Whether it has had any.
     bool has_hits(size_t sample) const { return has_hits_[sample] != 0; }
-    SampleColor color(size_t sample) const { return sums_[sample].result(midpoint_); }
+    SampleColor color(size_t sample) const { return sums_[sample].result(rule_); }
     const float* aovs(size_t sample) const {
         return values_.data() + sample * static_cast<size_t>(aovs_->channel_count);
     }
@@ -37,7 +37,7 @@ class LayerStack {
 
   private:
     const AovLayout* aovs_ = nullptr;
-    bool midpoint_ = false;
+    DepthRule rule_;
     std::vector<LayerSum> sums_;
     std::vector<uint8_t> has_hits_;
     std::vector<AovProgress> progress_;  ///< of output variables; where there are some

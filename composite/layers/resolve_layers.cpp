@@ -19,9 +19,13 @@ SampleColor covered(const Hit& hit, const Grid& grid, const V3f& color) {
     return {{color.x, color.y, color.z, 1}, hit.depth, grid.primitive};
 }
 
-/// Whether a layer counts for depth and id: matte ones and those that leave no trace do not.
+/// Whether a layer counts for the id: matte ones and those that leave no trace do not.
 bool shows(const Grid& grid, const Layer& layer) {
     return !grid.matte && (layer.opacity != V3f(0) || layer.color != V3f(0));
+}
+bool has_depth(const Layer& layer, const DepthRule& rule) {
+    const V3f &has = layer.opacity, &least = rule.least_opacity;
+    return least == V3f(0) || (has.x >= least.x && has.y >= least.y && has.z >= least.z);
 }
 
 /// Adds a layer's values, weighed by what reaches it.
@@ -50,7 +54,7 @@ void add_aovs_of_hit(const AxisRay& ray, const Grid& grid, const MicropolygonId&
 
 /// Adds hits to a sum. `layer_of(i, grid, id)`: hit i's layer.
 template <class LayerOf>
-void add(std::span<const Hit> hits, const Grids& grids, bool midpoint, const LayerOf& layer_of,
+void add(std::span<const Hit> hits, const Grids& grids, const DepthRule& rule, const LayerOf& layer_of,
          LayerSum& sum) {
     for (size_t i = 0; i < hits.size() && !sum.is_hidden; ++i) {
         const Hit& hit = hits[i];
@@ -64,24 +68,28 @@ void add(std::span<const Hit> hits, const Grids& grids, bool midpoint, const Lay
             if (grid.matte != 1) sum.alpha[c] += sum.transmission[c] * opacity;
             sum.transmission[c] *= 1 - opacity;
         }
-        if (shows(grid, layer) && ++sum.layers <= 2) {
-            if (sum.layers == 1) sum.depth = hit.depth, sum.primitive = grid.primitive;
-            if (sum.layers == 2 && midpoint) sum.depth = (sum.depth + hit.depth) / 2;
+        if (shows(grid, layer)) {
+            if (!sum.has_primitive) sum.primitive = grid.primitive, sum.has_primitive = true;
+            if (has_depth(layer, rule) && ++sum.layers <= 2) {
+                if (sum.layers == 1) sum.depth = hit.depth;
+                if (sum.layers == 2 && rule.midpoint) sum.depth = (sum.depth + hit.depth) / 2;
+            }
         }
         // "midpoint" still wants the depth of a second layer.
-        sum.is_hidden = sum.transmission == V3f(0) && (!midpoint || sum.layers >= 2);
+        sum.is_hidden = sum.transmission == V3f(0) && (!rule.midpoint || sum.layers >= 2);
     }
 }
 
 template <class LayerOf>
-SampleColor resolve(std::span<const Hit> hits, const Grids& grids, bool midpoint, const LayerOf& layer_of) {
-    if (!hits.empty() && !midpoint)
+SampleColor resolve(std::span<const Hit> hits, const Grids& grids, const DepthRule& rule,
+                    const LayerOf& layer_of) {
+    if (!hits.empty() && rule.is_plain())
         if (const Grid* grid = covering_grid(hits.front(), grids))
             return covered(hits.front(), *grid,
                            layer_of(0, *grid, MicropolygonId::unpack(hits.front().id)).color);
     LayerSum sum;
-    add(hits, grids, midpoint, layer_of, sum);
-    return sum.result(midpoint);
+    add(hits, grids, rule, layer_of, sum);
+    return sum.result(rule);
 }
 
 /// Finds the layers of a HitBuffer's hits, from number `first_hit` on.
@@ -92,29 +100,30 @@ auto layers_from(const HitLayers& layers, size_t first_hit) {
 
 }  // namespace
 
-SampleColor LayerSum::result(bool midpoint) const {
+SampleColor LayerSum::result(const DepthRule& rule) const {
     SampleColor sample;
-    sample.depth = midpoint && layers == 1 ? kInfinity : depth;
+    sample.depth = rule.midpoint && layers == 1 ? kInfinity : depth;
     sample.primitive = primitive;
     for (int c = 0; c < 3; ++c) sample.rgba[c] = color[c];
     sample.rgba[3] = mean_of_channels(alpha);
     return sample;
 }
 
-SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, bool midpoint) {
-    return resolve(hits, grids, midpoint, [&ray](size_t, const Grid& grid, const MicropolygonId& id) {
+SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids,
+                           const DepthRule& rule) {
+    return resolve(hits, grids, rule, [&ray](size_t, const Grid& grid, const MicropolygonId& id) {
         return layer_at(ray, grid, id);
     });
 }
 
 SampleColor resolve_layers(std::span<const Hit> hits, const HitLayers& layers, size_t first_hit,
-                           const Grids& grids, bool midpoint) {
-    return resolve(hits, grids, midpoint, layers_from(layers, first_hit));
+                           const Grids& grids, const DepthRule& rule) {
+    return resolve(hits, grids, rule, layers_from(layers, first_hit));
 }
 
 void add_layers(std::span<const Hit> hits, const HitLayers& layers, size_t first_hit, const Grids& grids,
-                bool midpoint, LayerSum& sum) {
-    add(hits, grids, midpoint, layers_from(layers, first_hit), sum);
+                const DepthRule& rule, LayerSum& sum) {
+    add(hits, grids, rule, layers_from(layers, first_hit), sum);
 }
 
 float resolve_aovs(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, const AovLayout& layout,

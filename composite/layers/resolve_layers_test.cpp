@@ -12,6 +12,8 @@ using testing::GridLook;
 
 constexpr AxisRay kRay{3.25f, 5.5f, 0, 0, 0, 0};
 
+const DepthRule kMidpoint{true};
+
 uint64_t id_of(uint32_t grid) {
     return MicropolygonId{grid, 3, 5}.packed();
 }
@@ -53,6 +55,26 @@ TEST(ResolveLayers, AnOpaqueHitHidesWhatFollows) {
     expect_rgba(sample, 1, 0.5f, 0.25f, 1);
     EXPECT_EQ(sample.depth, 2);
     EXPECT_EQ(sample.primitive, 7u);
+}
+
+TEST(ResolveLayers, DepthIsOfWhatIsOpaqueEnough) {
+    Grids grids;
+    add_grids(grids, 1, 1, glass({0, 0, 0}, {0.75f, 0.25f, 0.75f}, 2, 1));
+    add_grids(grids, 1, 1, glass({0, 0, 0}, {0.5f, 0.5f, 0.5f}, 3, 2));
+    add_grids(grids, 1, 1, flat({1, 1, 1}, 5, 3));
+    const Hit hits[] = {{2, id_of(0)}, {3, id_of(1)}, {5, id_of(2)}};
+    const auto depth = [&](const DepthRule& rule) { return resolve_layers(kRay, hits, grids, rule).depth; };
+    EXPECT_EQ(depth({}), 2);
+    EXPECT_EQ(depth({false, V3f(0.25f)}), 2);
+    EXPECT_EQ(depth({false, V3f(0.5f)}), 3);
+    EXPECT_EQ(depth({false, V3f(0.75f, 0, 0.75f)}), 2);
+    EXPECT_EQ(depth({false, V3f(0.996f)}), 5);
+    EXPECT_EQ(depth({true, V3f(0.5f)}), 4);
+    // Whose it is and the colour do not depend on it.
+    const SampleColor sample = resolve_layers(kRay, hits, grids, {false, V3f(0.996f)});
+    EXPECT_EQ(sample.primitive, 1u);
+    expect_rgba(sample, 0.125f, 0.375f, 0.125f, 1);
+    EXPECT_EQ(resolve_layers(kRay, std::span(hits).first(2), grids, {false, V3f(0.996f)}).depth, kInfinity);
 }
 
 TEST(ResolveLayers, FrontToBackWithOpacityPerChannel) {
@@ -107,14 +129,14 @@ TEST(ResolveLayers, MidpointsLieBetweenTheFirstTwoLayers) {
     add_grids(grids, 1, 1, flat({0, 0, 1}, 9, 4));
     add_grids(grids, 1, 1, held);
     const Hit hits[] = {{1, id_of(0)}, {2, id_of(1)}, {5, id_of(2)}, {9, id_of(3)}};
-    const SampleColor sample = resolve_layers(kRay, hits, grids, true);
+    const SampleColor sample = resolve_layers(kRay, hits, grids, kMidpoint);
     EXPECT_EQ(sample.depth, 3.5f);
     EXPECT_EQ(sample.primitive, 2u);
     expect_rgba(sample, 1, 0.5f, 0, 1);
-    EXPECT_EQ(resolve_layers(kRay, std::span(hits).first(2), grids, true).depth, kInfinity);
-    EXPECT_EQ(resolve_layers(kRay, std::span(hits).first(1), grids, true).depth, kInfinity);
+    EXPECT_EQ(resolve_layers(kRay, std::span(hits).first(2), grids, kMidpoint).depth, kInfinity);
+    EXPECT_EQ(resolve_layers(kRay, std::span(hits).first(1), grids, kMidpoint).depth, kInfinity);
     const Hit behind_matte[] = {{1, id_of(4)}, {2, id_of(1)}, {5, id_of(2)}};
-    EXPECT_EQ(resolve_layers(kRay, behind_matte, grids, true).depth, 3.5f);
+    EXPECT_EQ(resolve_layers(kRay, behind_matte, grids, kMidpoint).depth, 3.5f);
 }
 
 TEST(ResolveLayers, AWhollyTransparentLayerHasNoDepth) {

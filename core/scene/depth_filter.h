@@ -1,6 +1,7 @@
 /// Hider "depthfilter": what the depths of a pixel's samples make.
 #pragma once
 
+#include <algorithm>
 #include <string>
 
 #include "core/scene/scene.h"
@@ -22,6 +23,23 @@ inline DepthFilter depth_filter(const Options& options) {
     if (name == "max") return DepthFilter::Max;
     if (name == "average") return DepthFilter::Average;
     return name == "midpoint" ? DepthFilter::Midpoint : DepthFilter::Min;
+}
+
+/// Which of a sample's layers its depth is of: as PRMan has it, not of those that let more light through than
+/// Option "limits" "zthreshold" says.
+struct DepthRule {
+    bool midpoint = false;       ///< half-way between the first two; else of the first
+    V3f least_opacity{0, 0, 0};  ///< of a layer that counts, in every channel; 0: all count
+
+    bool is_plain() const { return !midpoint && least_opacity == V3f(0, 0, 0); }
+};
+
+inline DepthRule depth_rule(const Options& options) {
+    DepthRule rule{depth_filter(options) == DepthFilter::Midpoint};
+    const Parameter* const least = options.user.find("limits", "zthreshold");
+    for (size_t k = 0; least && !least->floats.empty() && k < 3; ++k)
+        rule.least_opacity[static_cast<int>(k)] = least->floats[std::min(k, least->floats.size() - 1)];
+    return rule;
 }
 
 }  // namespace trapeze

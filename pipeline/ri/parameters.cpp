@@ -25,6 +25,7 @@ constexpr UsualValue kUsual[] = {
     {"limits", "texturememory", ValueType::Integer},
     {"limits", "eyesplits", ValueType::Integer},
     {"limits", "othreshold", ValueType::Color},
+    {"limits", "zthreshold", ValueType::Color},
     {"statistics", "endofframe", ValueType::Integer},
     {"hidden", "aperture", ValueType::Float, 4},
     {"hidden", "jitter", ValueType::Integer},

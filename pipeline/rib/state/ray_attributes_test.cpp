@@ -67,11 +67,11 @@ TEST(RayAttributes, TransmissionWasATextOnce) {
     const auto transmission = [](const std::string& value) {
         return "Attribute \"visibility\" \"string transmission\" \"" + value + "\"";
     };
-    EXPECT_EQ(seen_by(transmission("transparent")), "");
-    for (const char* value : {"opaque", "Os", "shader"}) {
+    for (const char* value : {"transparent", "none"}) EXPECT_EQ(seen_by(transmission(value)), "") << value;
+    for (const auto& [value, mode] :
+         {std::pair("opaque", HitMode::Opaque), {"Os", HitMode::Primitive}, {"shader", HitMode::Shader}}) {
         EXPECT_EQ(seen_by(transmission(value)), "T") << value;
-        EXPECT_EQ(rays_after(transmission(value)).transmission_hits,
-                  value == std::string("shader") ? HitMode::Shader : HitMode::Primitive);
+        EXPECT_EQ(rays_after(transmission(value)).transmission_hits, mode) << value;
     }
     EXPECT_EQ(seen_by("Attribute \"visibility\" \"int transmission\" 1 " + transmission("transparent")), "");
 }
