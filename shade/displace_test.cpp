@@ -203,8 +203,7 @@ TEST(Displacement, BySurfacesThatAreClassesWithinTheBound) {
     EXPECT_TRUE(Shading(scene.context).displacing_surfaces()(0));
 }
 
-/// What displacement() leaves in the class's members the methods that shade find there; what begin() does
-/// stays where nothing displaces.
+/// What displacement() leaves in the class's members the methods that shade find there.
 TEST(Displacement, LeavesMembersOfClassesToTheirSurfaces) {
     ShadingScene scene;
     const ShaderFolder folder;
@@ -225,6 +224,26 @@ TEST(Displacement, LeavesMembersOfClassesToTheirSurfaces) {
     EXPECT_TRUE(scene.reported.empty());
     for (size_t i = 0; i < before.vertex_count(); ++i)
         expect_near_triple(after.Ci.at(i), V3f(.25f * before.s[i], before.t[i], 15), 1e-6f);
+}
+
+TEST(Displacement, ByAnotherClassLeavesMembersAsTheyAre) {
+    ShadingScene scene;
+    const ShaderFolder folder;
+    for (const char* name : {"one", "two"})
+        folder.write(
+            name, "class " + std::string(name) +
+                      "(output varying float told = 2;) { varying float high = 0;"
+                      "  public void begin() { high = 9; }"
+                      "  public void displacement(output point P; output normal N) {"
+                      "    high = .25; told = 3; P += high * normalize(N); }"
+                      "  public void surface(output color Ci, Oi) { Oi = 1; Ci = color(high, told, 0); } }");
+    scene.scene.options.search_paths["shader"] = {folder.path()};
+    scene.attributes->displacement_bound = 0.5f;
+    scene.surface("one");
+    EXPECT_EQ(scene.shaded(scene.grid()).Ci.at(0), V3f(.25f, 3, 0));
+    scene.displacement("two");
+    EXPECT_EQ(scene.shaded(scene.grid()).Ci.at(0), V3f(9, 2, 0));
+    EXPECT_TRUE(scene.reported.empty());
 }
 
 /// Files may hold a shader under another name.

@@ -255,7 +255,7 @@ bool Shading::asks_clouds_alone() const {
 std::vector<Shading::MeshLight> Shading::mesh_lights() const {
     std::vector<MeshLight> lights;
     for (const Lamp* lamp : impl_->materials.lamps())
-        if (is_mesh_light(*lamp)) lights.push_back({lamp->area, lamp->asks_place()});
+        if (is_mesh_light(*lamp)) lights.push_back({lamp->area, lamp->asks_place});
     return lights;
 }
 

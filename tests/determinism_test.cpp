@@ -2,8 +2,10 @@
 /// crop.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "core/simd/simd_limit.h"
 #include "sample/every_method_harness.h"
@@ -205,6 +207,29 @@ TEST(Determinism, EndlessLoopsLeaveTheSameInEveryOrder) {
     RenderSettings split;
     split.regions_at_least = 9;
     expect_same(reference, render_scene(path, split, 2, true), "regions");
+}
+
+/// A world that is larger or smaller by a power of two has the same numbers but for their exponents.
+TEST(Determinism, OfUnits) {
+    const auto micropolygons = [](const std::string& shape, int power) {
+        const WorkFolder folder;
+        std::ostringstream scale;
+        scale << std::ldexp(1.0, power);
+        folder.write("a.rib", "Format 60 60 1 PixelSamples 1 1 Projection \"perspective\" \"fov\" 40 Scale " +
+                                  scale.str() + " " + scale.str() + " " + scale.str() +
+                                  " Translate 0 0 5 WorldBegin Surface \"constant\" " + shape +
+                                  " WorldEnd\n");
+        const auto frames = render_scene((folder / "a.rib").string(), RenderSettings());
+        return frames.empty() ? 0 : frames.front().stats.tessellate.micropolygons;
+    };
+    for (const std::string shape :
+         {"Sphere 1 -1 1 360", "Torus 1 .4 0 360 360",
+          "PatchMesh \"bilinear\" 2 \"nonperiodic\" 2 \"nonperiodic\" \"P\" [-1 -1 0 1 -1 2 -1 1 0 1 1 2]"}) {
+        const auto expected = micropolygons(shape, 0);
+        EXPECT_GT(expected, 100u) << shape;
+        for (const int power : {-12, 10, 17, 24, 30})
+            EXPECT_EQ(micropolygons(shape, power), expected) << shape << power;
+    }
 }
 
 }  // namespace

@@ -55,6 +55,12 @@ TEST(LightGroups, AddUpToThePictureWhereShadersAndLightsTakeSamples) {
         "AttributeBegin AreaLightSource \"arealight\" \"r\" \"intensity\" 5 \"string lightgroup\" "
         "\"fill\" Translate -1 1 0 Sphere .5 -.5 .5 360 AttributeEnd Illuminate \"r\" 1 ";
     expect_sum(lit_floor("diffuse(n) + (1 - occlusion(P, n, 4))", key + fill), "occlusion");
+    expect_sum(
+        lit_floor(
+            "0; uniform float i; for (i = 0; i < 2; i += 1) { illuminance(P, n, PI / 2) Ci += Cl * random();"
+            " Ci *= random(); }",
+            key + fill),
+        "random numbers");
     expect_sum(lit_floor("Os * Cs * diffuse(n)", key + soft), "area light behind");
     expect_sum(lit_floor("Os * Cs * diffuse(n)", soft + key), "area light in front");
 }
@@ -69,6 +75,28 @@ TEST(NormalLayer, IsAsLongAsItsSurfacesCover) {
     const Image image = render_scene(folder.file("a.rib"), {}, 1).at(0).image;
     EXPECT_NEAR(image.rgba[4 * 4 + 3], .271f, kHalves);
     EXPECT_NEAR(std::abs(image.aovs[3 * 4 + 2]), .271f, kHalves);
+}
+
+/// Behind what lets through other shares of red, green and blue, a direction fades as a float does, and stays
+/// a direction.
+TEST(NormalLayer, FadesAsAWholeBehindColoredGlass) {
+    const TemporaryFolder folder;
+    std::ofstream(folder.file("tells.sl"))
+        << "surface tells(output varying vector way = 0; output varying color tint = 0; output varying float f = 0;) {"
+           " way = vector(1, 1, 1); tint = 1; f = 1; Oi = Os; Ci = Oi; }";
+    std::ofstream(folder.file("a.rib"))
+        << "Option \"searchpath\" \"string shader\" [\"" << folder.file("") << ":&\"] Format 3 3 1 "
+        << "Display \"x\" \"exr\" \"rgba\" Display \"+x\" \"exr\" \"normal N\" Display \"+x\" \"exr\" \"vector way\" "
+           "Display \"+x\" \"exr\" \"color tint\" Display \"+x\" \"exr\" \"float f\" WorldBegin "
+           "Surface \"null\" Opacity [0 .25 .5] Polygon \"P\" [-9 -9 1 9 -9 1 9 9 1 -9 9 1] "
+           "Surface \"tells\" Opacity [1 1 1] Polygon \"P\" [-9 -9 2 9 -9 2 9 9 2 -9 9 2] WorldEnd\n";
+    const Image image = render_scene(folder.file("a.rib"), {}, 1).at(0).image;
+    ASSERT_EQ(image.aov_channels, 10);
+    const float* const values = &image.aovs[10 * 4];
+    EXPECT_NEAR(std::abs(values[2]), 1, kHalves);  // .25 of the one in front and .75 of the one behind
+    for (size_t c = 3; c < 6; ++c) EXPECT_NEAR(values[c], .75f, kHalves);
+    for (size_t c = 0; c < 3; ++c) EXPECT_NEAR(values[6 + c], 1 - .25f * static_cast<float>(c), kHalves);
+    EXPECT_NEAR(values[9], .75f, kHalves);
 }
 
 }  // namespace

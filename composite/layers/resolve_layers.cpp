@@ -46,7 +46,9 @@ void add_aovs_of_hit(const AxisRay& ray, const Grid& grid, const MicropolygonId&
             for (int corner = 0; corner < corners; ++corner)
                 value += weights.w[corner] *
                          plane[grid.shape.row_index(id.u + (corner & 1), id.v + (corner >> 1))];
-            const float reaching = aov.is_of_one_surface() ? 1 : aov.channels == 3 ? transmission[c] : mean;
+            const float reaching = aov.is_of_one_surface()             ? 1
+                                   : aov.channels == 3 && aov.is_color ? transmission[c]
+                                                                       : mean;
             values[aov.offset + c] += reaching * value;
         }
     }

@@ -6,8 +6,10 @@ namespace trapeze {
 
 const Aov* AovLayout::find(const DisplayVariable& variable) const& {
     const int channels = component_count(variable.type);
+    const bool is_color = variable.type == ValueType::Color;
     for (const Aov& aov : aovs)
-        if (aov.name == variable.name && aov.channels == channels && aov.filter == variable.filter)
+        if (aov.name == variable.name && aov.channels == channels && aov.is_color == is_color &&
+            aov.filter == variable.filter)
             return &aov;
     return nullptr;
 }
@@ -19,8 +21,8 @@ AovLayout aov_layout(const Options& options) {
         if (display.has_driver("null")) continue;  // nobody sees it
         const int channels = component_count(display.variable->type);
         if (layout.channel_count + channels > kMostAovChannels) continue;
-        layout.aovs.push_back(
-            {display.variable->name, channels, layout.channel_count, display.variable->filter});
+        layout.aovs.push_back({display.variable->name, channels, layout.channel_count,
+                               display.variable->filter, display.variable->type == ValueType::Color});
         layout.channel_count += channels;
     }
     return layout;

@@ -4,11 +4,12 @@
 ///
 /// Output variables go through the renderer as Ci does: a micropolygon's value is its vertex 00's, or
 /// interpolated when shading is smooth; a sample's layers are added up from front to back, each weighed by
-/// what the layers before it let through (1 - Oi of each, by channel; the mean of the three for a float), so
-/// that a value is taken to be premultiplied as Ci is; then they are filtered as colour is. A held-out
-/// (Matte) layer adds nothing and hides what is behind it; neither does a layer add anything that shows
-/// nothing at all, its Ci and Oi both 0. Pixels where nothing is have 0. Exposure and imager shaders leave
-/// them alone. The variable z is no such channel but the depth of the picture, by the hider's depth filter.
+/// what the layers before it let through (1 - Oi of each, by channel of a colour; the mean of the three for
+/// floats, points, vectors and normals), so that a value is taken to be premultiplied as Ci is; then they are
+/// filtered as colour is. A held-out (Matte) layer adds nothing and hides what is behind it; neither does a
+/// layer add anything that shows nothing at all, its Ci and Oi both 0. Pixels where nothing is have 0.
+/// Exposure and imager shaders leave them alone. The variable z is no such channel but the depth of the
+/// picture, by the hider's depth filter.
 ///
 /// A Display's "filter" may keep of a pixel's samples one (VariableFilter), which suits positions, names in
 /// numbers and whatever else has no mean: nearest and farthest take the first layer that shows something, as
@@ -34,6 +35,7 @@ struct Aov {
     int channels = 3;  ///< 1: a float; 3: a colour, point, vector or normal
     int offset = 0;    ///< of the first among the layout's channels
     VariableFilter filter = VariableFilter::Picture;
+    bool is_color = true;  ///< of three channels: else in space, where opacity by channel means nothing
 
     bool is_summed() const { return filter == VariableFilter::Picture; }
     /// Whether a sample has the value of one surface, else that of all that it sees.

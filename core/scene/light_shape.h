@@ -44,7 +44,8 @@ struct LightMesh {
         V3f middle{0, 0, 0};
         float radius = 0;
     };
-    /// What a triangle's corners a, b and c are on their surface, and its derivatives there at shutter open.
+    /// What a triangle's corners a, b and c are on their surface, and its derivatives at a as the shutter
+    /// opens, before displacement.
     struct Place {
         std::array<V2f, 3> uv, st;
         V3f dPdu{0, 0, 0}, dPdv{0, 0, 0};

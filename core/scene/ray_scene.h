@@ -2,6 +2,7 @@
 /// geometry for them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -79,15 +80,19 @@ struct RayHitPlace {
 /// there, too, and is the same surface; those of other primitives count.
 class PassedSurfaces {
   public:
-    /// Goes through a hit; its surface ends at the distance `until`. False where there are more surfaces in
-    /// the place than are known apart.
-    bool add(uint32_t primitive, float distance, float until, const RayHitPlace& hit) {
-        if (!(distance < until_)) count_ = 0, until_ = until;
+    /// Goes through a hit at a distance, whose surface ends at `until`; others may be met from `from` on,
+    /// which is a little nearer than the hit. Returns from where on what is left of the ray counts: behind
+    /// the place, where more surfaces are in it than are known apart.
+    float add(uint32_t primitive, float distance, float from, float until, const RayHitPlace& hit) {
+        if (distance < until_)
+            until_ = std::max(until_, until);
+        else
+            from = std::max(from, until_), count_ = 0, until_ = until;
         last_ = hit;
-        if (has(primitive, distance)) return true;
-        if (count_ == kMost) return false;
+        if (has(primitive, distance)) return from;
+        if (count_ == kMost) return until_;
         primitives_[count_++] = primitive;
-        return true;
+        return from;
     }
     bool has(uint32_t primitive, float distance) const {
         if (!(distance < until_)) return false;
@@ -95,7 +100,6 @@ class PassedSurfaces {
             if (primitives_[i] == primitive) return true;
         return false;
     }
-    float until() const { return until_; }
     const RayHitPlace& last() const { return last_; }
 
   private:
@@ -128,6 +132,7 @@ struct RaySurfaceHit {
     const RayAttributes* attributes = nullptr;  ///< the primitive's
     bool from_outside = true;                   ///< else it comes from within the surface
     uint8_t level = 0;                          ///< of the geometry that was met: level_side() or longer
+    bool of_solid = false;  ///< of a border of a solid, which may be made of several surfaces in one place
     bool keeps_opacity = true;  ///< no shader has to be asked for the opacity that hides others
     V3f opacity{1, 1, 1};       ///< the primitive's own, Os
     V3f color{1, 1, 1};         ///< the primitive's own, Cs

@@ -88,6 +88,7 @@ RaySurfaceHit RayHits::hit_of(const RaySegment& ray, const PlacedRay& placed, co
     hit.attributes = &dicer_.attributes(hit.primitive).rays;
     hit.from_outside = from_outside(placed, ray.direction, found);
     hit.level = level_;
+    hit.of_solid = dicer_.context().scene->primitives[hit.primitive].solid >= 0;
     hit.keeps_opacity = dicer_.keeps_opacity(hit.primitive);
     hit.color = hit.opacity = V3f(0, 0, 0);
     for (int corner = 0; corner < 4; ++corner) {

@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 
+#include "core/scene/level_of_detail.h"
 #include "pipeline/rays/level_spans.h"
 
 namespace trapeze {
@@ -31,7 +32,7 @@ constexpr double kRadiiAway = 3;
 struct PartKey {
     const Shape* shape;
     std::array<uint32_t, 5> numbers;
-    std::array<int, 7> choices;
+    std::array<int, 8> choices;
 
     auto operator<=>(const PartKey&) const = default;
 };
@@ -200,7 +201,7 @@ class Sharing {
                        {bits(a.opacity.x), bits(a.opacity.y), bits(a.opacity.z), bits(a.shading_rate),
                         bits(a.dice.min_length)},
                        {a.sides, a.dice.binary, a.dice.raster_oriented, a.rays.diffuse, a.rays.specular,
-                        a.rays.transmission, what_.keeps_opacity(number)}};
+                        a.rays.transmission, what_.keeps_opacity(number), seen_numbers(a).are_all()}};
     }
 
     /// Whether all primitives of an instance are beside its first one, at all times, where those of another

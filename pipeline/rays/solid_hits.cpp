@@ -7,10 +7,12 @@
 namespace trapeze {
 namespace {
 
-/// Behind a hit: distances become depths and come back, and lose a last bit each time.
-float behind(float distance) {
-    for (int i = 0; i < 4; ++i) distance = std::nextafter(distance, kInfinity);
-    return distance;
+/// Goes on behind a hit: other parts' surfaces may lie there, the same one counts no more. Distances become
+/// depths and come back, and lose a last bit each time.
+void pass(const RaySurfaceHit& hit, RaySegment& ray) {
+    float from = hit.distance, until = hit.distance;
+    for (int i = 0; i < 4; ++i) from = std::nextafter(from, 0.0f), until = std::nextafter(until, kInfinity);
+    ray.min = ray.passed.add(hit.primitive, hit.distance, from, until, hit.place);
 }
 
 /// Whether a ray wants the hit: by the solid's own sides.
@@ -35,7 +37,7 @@ std::optional<RaySurfaceHit> SolidHits::nearest(const RaySegment& ray, const Fin
     while (const std::optional<RaySurfaceHit> hit = find(rest)) {
         along.push_back(*hit);
         if (const int solid = solid_of(*hit); solid >= 0) odd[solid] = !odd[solid];
-        rest.min = behind(hit->distance);
+        pass(*hit, rest);
     }
     SolidState& state = states_.local();
     state.reset();

@@ -99,13 +99,11 @@ RegisterId Generator::builtin_value(const Expression& e, std::optional<RegisterI
     inputs.insert(inputs.begin() + static_cast<std::ptrdiff_t>(std::min(positional, inputs.size())),
                   names.begin(), names.end());
     const bool is_random = builtin.op == Op::Random;
-    if (is_random && loops_ > 0) inputs.push_back(turn_of_random());
+    if (is_random) add_turns(inputs);
     const int32_t number = is_random ? random_calls_++ | (for_uniform_ ? random_call::kOfGrid : 0) : 0;
     const RegisterId result = outputs.empty() ? constant(0) : outputs.front();
     std::vector<RegisterId> written = outputs;
     emit(op, std::move(outputs), inputs, number);
-    if (is_random && loops_ > 0)
-        compute(Op::Add, Base::Float, {*turn_of_random_, constant(1)}, turn_of_random_);
     size_t at = builtin.result != 'w' ? 1 : 0;
     for (size_t i = 0; i < e.children.size(); ++i)
         if (is_output[i]) write_back(*e.children[i], written[at++]);

@@ -200,31 +200,46 @@ void Generator::if_statement(const Statement& s) {
 
 /// Returns where the loop's opening will be.
 size_t Generator::begin_loop() {
-    if (loops_++ == 0) {
-        turn_of_random_.reset();
-        outside_ = region_;
-    }
+    turns_.push_back({region_, {}});
     return code_->size();
 }
 
-/// The turns that random() counts begin at 0 in front of the outermost loop.
+/// The turns that random() asks for are counted from 0.
 void Generator::end_loop(size_t opening) {
-    if (--loops_ > 0 || !turn_of_random_) return;
+    const Turns turns = turns_.back();
+    turns_.pop_back();
+    if (!turns.number) return;
     Instruction start;
     start.op = Op::Move;
     start.outputs = 1;
-    start.region = outside_;
-    start.operands = {*turn_of_random_, constant(0)};
+    start.region = turns.outside;
+    start.operands = {*turns.number, constant(0)};
     start.at = (*code_)[opening].at;
     code_->insert(code_->begin() + static_cast<std::ptrdiff_t>(opening), std::move(start));
 }
 
-RegisterId Generator::turn_of_random() {
-    if (!turn_of_random_) {
-        turn_of_random_ = add_register(Register::Kind::Local, {Base::Float, 0});
-        program_->registers[*turn_of_random_].region = outside_;
+/// Counts a turn of the innermost loop, at a place of the code.
+void Generator::count_turn(uint32_t region, size_t at) {
+    if (!turns_.back().number) return;
+    const RegisterId number = *turns_.back().number;
+    Instruction more;
+    more.op = Op::Add;
+    more.outputs = 1;
+    more.region = region;
+    more.operands = {number, number, constant(1)};
+    more.at = at_;
+    code_->insert(code_->begin() + static_cast<std::ptrdiff_t>(at), std::move(more));
+}
+
+/// The turns of all loops around, the outermost first.
+void Generator::add_turns(Ids& inputs) {
+    for (Turns& turns : turns_) {
+        if (!turns.number) {
+            turns.number = add_register(Register::Kind::Local, {Base::Float, 0});
+            program_->registers[*turns.number].region = turns.outside;
+        }
+        inputs.push_back(*turns.number);
     }
-    return *turn_of_random_;
 }
 
 /// while and for. The condition is computed inside the loop in every turn, and stands before the body; what a
@@ -242,6 +257,7 @@ void Generator::loop_statement(const Statement& s) {
     if (counts)
         for (size_t i = 2; i < s.expressions.size(); ++i)
             if (s.expressions[i]) value(*s.expressions[i]);
+    count_turn(region_, code_->size());
     close(Op::EndLoop);
     end_loop(opening);
 }
@@ -279,7 +295,7 @@ void Generator::light_block(const Statement& s) {
     if (op == Op::Solar && inputs.empty()) inputs.push_back(global("Ns", Base::Normal));
     if (op == Op::Illuminate) inputs.insert(inputs.begin(), global("Ps", Base::Point));
     // keep_inputs() may insert copies in front of it, when all of the body is known.
-    const size_t opening = begin_loop();
+    const size_t opening = code_->size();
     if (s.at.line) at_ = s.at;
     open(op, outputs, inputs);
     if (op == Op::Illuminance) (*code_)[opening].immediate = static_cast<int32_t>(plain_inputs);
@@ -288,7 +304,6 @@ void Generator::light_block(const Statement& s) {
     light_loops_ -= op == Op::Illuminance ? 1 : 0;
     close(end);
     if (op == Op::Illuminance) keep_inputs(opening);
-    end_loop(opening);
     for (size_t i = 0; i < of_turn.size(); ++i) moved(of_turn[i], base_of(outputs[i]), outputs[i]);
 }
 
@@ -373,12 +388,17 @@ void Generator::gather_statement(const Statement& s) {
     };
     const size_t opening = begin_loop();
     open(Op::Gather, outputs, inputs);
+    const uint32_t hit = region_;
+    const size_t first = code_->size();
     half(0);
     // As in turn_to_else(): the second half is a region of its own.
     region_ = open_regions_.back();
     emit(Op::GatherElse, {}, {});
     region_ = ++last_region_;
+    const size_t second = code_->size();
     half(1);
+    // Each ray takes one half, which may end anywhere: turns are counted where they begin, from 1.
+    count_turn(region_, second), count_turn(hit, first);
     close(Op::EndGather);
     keep_inputs(opening);
     end_loop(opening);

@@ -109,7 +109,8 @@ class Generator {
     void loop_statement(const Statement& s);
     size_t begin_loop();
     void end_loop(size_t opening);
-    RegisterId turn_of_random();
+    void add_turns(Ids& inputs);
+    void count_turn(uint32_t region, size_t at);
     void light_block(const Statement& s);
     void option_for_lights(const Expression& name, const Expression& argument, Ids& inputs);
     void warn_of_growing(const char* word, const Expression& name, const Expression& argument);
@@ -135,10 +136,13 @@ class Generator {
     int call_depth_ = 0;
     int light_loops_ = 0;       ///< illuminance blocks around what is being generated
     int32_t random_calls_ = 0;  ///< numbers the calls of random(), so that no two give the same
-    int loops_ = 0;             ///< loops of any kind around what is being generated
-    uint32_t outside_ = 0;      ///< the region around the outermost of them
-    /// How often random() was called in the loops so far; none while it was not.
-    std::optional<RegisterId> turn_of_random_;
+    /// A loop around what is being generated, but not one over lights: random() asks in which turn it is, by
+    /// a register of the region outside, which is there once somebody has asked.
+    struct Turns {
+        uint32_t outside = 0;
+        std::optional<RegisterId> number;
+    };
+    std::vector<Turns> turns_;
     bool for_uniform_ = false;  ///< what is being computed goes to a uniform variable
     /// Of the function (or shader) whose body is being generated.
     struct Body {

@@ -77,7 +77,12 @@ class Slicer {
         for (size_t k = 0; k < instruction.input_count(); ++k) want(instruction.input(k));
         const ContextFamily context = row_of(instruction.op).context;
         const bool runs_lights = context == ContextFamily::Lights || instruction.op == Op::Illuminance;
-        if (runs_lights || context == ContextFamily::Messages) want_what_others_may_ask();
+        // What displaces has run before, and what is set in the scene asks nothing back.
+        const bool asks_back = context == ContextFamily::Messages &&
+                               instruction.op != Op::DisplacementMessage &&
+                               instruction.op != Op::AttributeMessage &&
+                               instruction.op != Op::OptionMessage && instruction.op != Op::RendererInfo;
+        if (runs_lights || asks_back) want_what_others_may_ask();
     }
     /// Lights may ask for what the surface has by the names of its variables.
     void want_what_others_may_ask() {

@@ -52,7 +52,7 @@ void AreaSamples::start(const vm::Context& surroundings, size_t lanes, const Pla
 }
 
 std::vector<float> AreaSamples::take(const Turn& turn, const Lamp& lamp, const vm::Operand& P) {
-    const bool asks_place = lamp.asks_place();
+    const bool asks_place = lamp.asks_place;
     samples_.assign((asks_place ? kPlanesWithPlace : kSamplePlanes) * lanes_, 0);
     const auto put = [&](size_t plane, size_t lane, const V3f& v) {
         for (int k = 0; k < 3; ++k) samples_[(plane + static_cast<size_t>(k)) * lanes_ + lane] = v[k];

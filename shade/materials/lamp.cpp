@@ -1,17 +1,8 @@
 #include "shade/materials/lamp.h"
 
-#include <algorithm>
-
 #include "core/motion_keys.h"
 
 namespace trapeze {
-
-bool Lamp::asks_place() const {
-    const auto names = {"u", "v", "s", "t", "dPdu", "dPdv"};
-    return area && std::ranges::any_of(names, [&](const char* name) {
-               return shader->program().find_global(name) != nullptr;
-           });
-}
 
 int Lamp::turns() const {
     if (!area) return 1;

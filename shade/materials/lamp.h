@@ -21,8 +21,7 @@ struct Lamp {
     V3f position;                 ///< the origin of its shader space, in camera space: P of the light shader
     bool asks_surface = false;    ///< by surface(): for variables of the surface that it shines on
     bool asks_variables = false;  ///< for those of the primitive that it shines on
-    /// For where the point of its surface is on that (LightMesh::places), of an area light.
-    bool asks_place() const;
+    bool asks_place = false;      ///< where on the surface of an area light its point is (LightMesh::places)
     /// What it shines from, where its shader asks for points of that; else null.
     const LightInstance* area = nullptr;
     /// Of that: at shutter open, and of a light that moves in the middles of equal parts of the shutter, too

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <new>
 
+#include "core/random.h"
 #include "core/scene/scene.h"
 #include "core/scene/shading_grid.h"
 #include "shade/lights/light_categories.h"
@@ -249,6 +250,7 @@ void LightRig::tell(const Turn& turn, const vm::LightOutput& output, const vm::R
     arriving.ambient = !program.directional;
     arriving.distant = output.distant;
     arriving.registers = &registers;
+    arriving.word = hash(turn.number, static_cast<uint32_t>(turn.sample));
     arriving.L = output.L;
     arriving.direction = planes + kDirection * lanes_;
     arriving.Cl = planes + kCl * lanes_;

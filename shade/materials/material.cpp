@@ -199,6 +199,10 @@ const Lamp* Materials::lamp(const LightInstance& instance) {
         return i.op == rsl::Op::SurfaceMessage;
     });
     made->asks_variables = asks_variables(made->shader->program());
+    const auto place = {"u", "v", "s", "t", "dPdu", "dPdv"};
+    made->asks_place = made->area && std::ranges::any_of(place, [&](const char* name) {
+                           return made->shader->program().find_global(name) != nullptr;
+                       });
     at->second = std::move(made);
     lamp_order_.push_back(at->second.get());
     return at->second.get();

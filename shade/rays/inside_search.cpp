@@ -16,8 +16,9 @@ void go_behind(const RayScene& scene, const RaySurfaceHit& hit, RaySegment& ray)
     constexpr float kRounding = 0x1p-21f;
     const float spacing = scene.spacing(ray.origin + ray.direction * hit.distance);
     const float until = hit.distance + std::max(hit.distance * 1e-6f, spacing * 1e-4f);
-    ray.min = ray.passed.add(hit.primitive, hit.distance, until, hit.place) ? hit.distance * (1 - kRounding)
-                                                                            : ray.passed.until();
+    // Of a solid the other surfaces there have been counted into its border.
+    const float from = hit.of_solid ? until : hit.distance * (1 - kRounding);
+    ray.min = ray.passed.add(hit.primitive, hit.distance, from, until, hit.place);
     ray.level = hit.level;  // else finer geometry of the same surface might be met once more
 }
 

@@ -60,7 +60,7 @@ std::optional<V3f> LaneMotion::normal(const V3f& normal, float time) const {
     if (time == 0 || !grid_) return normal;
     if (grid_->primitive->shape_keys.size() <= 1) return turn_.normal(normal, time);
     if (!at_open_) return {};
-    const GridTangents now = tangents(time);
+    const GridTangents& now = tangents(time);
     if (!now.is_about_as_long_as(*at_open_)) return {};
     const float along = at_open_->normal().dot(normal);
     constexpr float kAlike = 0.9f;
@@ -90,8 +90,12 @@ V3f LaneMotion::place_at(float time, size_t vertex) const {
     return from + (to - from) * at.local;
 }
 
-GridTangents LaneMotion::tangents(float time) const {
-    return GridTangents(grid_->shape, vertex_, [&](size_t vertex) { return place_at(time, vertex); });
+const GridTangents& LaneMotion::tangents(float time) const {
+    if (!at_known_time_ || known_time_ != time) {
+        at_known_time_.emplace(grid_->shape, vertex_, [&](size_t vertex) { return place_at(time, vertex); });
+        known_time_ = time;
+    }
+    return *at_known_time_;
 }
 
 }  // namespace trapeze

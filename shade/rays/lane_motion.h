@@ -41,7 +41,7 @@ class LaneMotion {
   private:
     V3f place(int key, size_t vertex) const;
     V3f place_at(float time, size_t vertex) const;
-    GridTangents tangents(float time) const;
+    const GridTangents& tangents(float time) const;
     /// The shortest turn from the normal of shutter open, as the space alone turns it, to a time's.
     V3f turned_by_shape(const V3f& direction, float time, bool back) const;
 
@@ -53,7 +53,9 @@ class LaneMotion {
     float shift_ = 0, only_time_ = 0;
     bool is_hit_ = false;
     MotionTurn turn_;
-    std::optional<GridTangents> at_open_;  ///< of what deforms, where its grid tells
+    std::optional<GridTangents> at_open_;                ///< of what deforms, where its grid tells
+    mutable std::optional<GridTangents> at_known_time_;  ///< the last ones that were asked for
+    mutable float known_time_ = 0;
 };
 
 }  // namespace trapeze

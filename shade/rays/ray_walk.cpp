@@ -52,6 +52,12 @@ std::vector<const RaySegment*> segments_of(std::span<const WalkedRay> rays) {
     return segments;
 }
 
+/// Whether a hit hides all light, whatever its opacity and what it is seen through.
+bool is_opaque_by_attribute(const RaySurfaceHit& hit, const RayAsk& ask) {
+    return !ask.hit_mode && ask.kind == RayKind::Transmission &&
+           hit.attributes->transmission_hits == RayAsk::HitMode::Opaque;
+}
+
 /// What the attributes of a hit say that it stands for.
 RayAsk::HitMode mode_of(const RayAttributes& attributes, RayKind kind, bool opacity_alone) {
     using HitMode = RayAsk::HitMode;
@@ -142,8 +148,7 @@ bool RayWalk::see(WalkedRay& ray, const V3f& color, const V3f& opacity) {
 bool RayWalk::pass(const Met& met, const RayAsk& ask) const {
     WalkedRay& ray = *met.ray;
     const bool own = met.vertex < 0;
-    const bool hides_all = own && !ask.hit_mode && ask.kind == RayKind::Transmission &&
-                           met.hit.attributes->transmission_hits == RayAsk::HitMode::Opaque;
+    const bool hides_all = is_opaque_by_attribute(met.hit, ask);
     const V3f opacity = hides_all ? V3f(1, 1, 1)
                         : own     ? met.hit.opacity
                                   : met.grid->Oi.at(static_cast<size_t>(met.vertex));
@@ -174,6 +179,7 @@ void RayWalk::find_media(std::span<Met> met, const RayAsk& ask, Wants wants) con
     if (volumes_.empty() || !ask.shades) return;
     InsideSearch search(scene_, volumes_, ask.kind);
     for (Met& one : met) {
+        if (is_opaque_by_attribute(one.hit, ask)) continue;
         const bool hides = wants == Wants::Opacity && one.hit.keeps_opacity && one.hit.opacity == V3f(1);
         if (volumes_.has(one.ray->medium))
             one.medium = one.ray->medium;

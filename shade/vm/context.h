@@ -123,6 +123,7 @@ class Lights {
         const float* lit = nullptr;            ///< lanes that the light's cone holds
         bool distant = false;                  ///< there is no place that L leads to
         float diffuse = 1, specular = 1;       ///< shares in those built-in functions
+        uint32_t word = 0;                     ///< of the light and its sample: random numbers follow from it
         const Registers* registers = nullptr;  ///< the light's variables
     };
     /// The request must live until the task is done.

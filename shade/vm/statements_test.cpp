@@ -352,12 +352,29 @@ TEST(Random, TheFirstTurnIsAsWithoutALoop) {
     EXPECT_EQ(values_of(run, "a"), values_of(in_loop, "a"));
 }
 
-TEST(Random, VerticesThatComeByLaterCountTheirOwnTurns) {
-    // Those of the right half draw in the second turn for the first time.
+/// Who does not draw in a turn changes nothing for others, nor for later turns.
+TEST(Random, NumbersFollowFromTheTurnNotFromWhoDraws) {
+    const auto some = run_of(
+        "uniform float i; for (i = 0; i < 3; i += 1) { if (s > .5 ? i > 0 : i == 2) { float x = random();"
+        "  if (i == 1) a = x; if (i == 2) b = x; } }");
+    const auto all = run_of(
+        "uniform float i; for (i = 0; i < 3; i += 1) { float x = random();"
+        "  if (i == 1 && s > .5) a = x; if (i == 2) b = x; }");
+    EXPECT_EQ(values_of(some, "a"), values_of(all, "a"));
+    EXPECT_EQ(values_of(some, "b"), values_of(all, "b"));
+}
+
+TEST(Random, TurnsOfNestedLoopsAndOfLoopsThatGoOnAreTold) {
     const auto run = run_of(
-        "uniform float i; for (i = 0; i < 2; i += 1) if (s > .5 ? i == 1 : i == 0) { float x = random(); a = x; }");
-    const auto at_once = run_of("a = random();");
-    EXPECT_EQ(values_of(run, "a"), values_of(at_once, "a"));
+        "uniform float i, k; for (i = 0; i < 2; i += 1) { for (k = 0; k < 2; k += 1) { float x = random();"
+        "  if (k == 0) { if (i == 0) a = x; else c = x; continue; } if (i == 0) b = x; else d = x; } }");
+    std::vector<float> all;
+    for (const char* name : {"a", "b", "c", "d"})
+        for (const float value : values_of(run, name)) all.push_back(value);
+    EXPECT_GE(different(all), all.size() - 1);
+    // A loop that draws how often it goes on ends.
+    const auto drawn = run_of("while (random() < .9 && a < 1000) a += 1;");
+    EXPECT_GT(different(values_of(drawn, "a")), 5u);
 }
 
 TEST(Random, AUniformVariableGetsOneNumberForTheGrid) {
@@ -365,6 +382,12 @@ TEST(Random, AUniformVariableGetsOneNumberForTheGrid) {
         "uniform float r = random(), q; q = 1 - random(); uniform color k = color random();"
         "a = r; b = q; c = comp(k, 0); d = comp(k, 1);");
     const auto at_once = run_of("a = random();");
+    const auto in_loop = run_of(
+        "uniform float i; for (i = 0; i < 2; i += 1) { if (s > .5) c = random(); uniform float r = random();"
+        "  if (i == 0) a = r; else b = r; if (s > .5) { uniform float part = random(); d = part; } }");
+    for (const char* name : {"a", "b"}) EXPECT_EQ(different(values_of(in_loop, name)), 1u) << name;
+    EXPECT_NE(in_loop->at("a", 0), in_loop->at("b", 0));
+    EXPECT_EQ(different(values_of(in_loop, "d")), 2u);  // and 0 where nobody drew
     std::set<float> drawn;
     for (const char* name : {"a", "b", "c", "d"}) {
         EXPECT_EQ(different(values_of(run, name)), 1u) << name;

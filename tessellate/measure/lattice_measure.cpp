@@ -219,7 +219,10 @@ class LaneMeasure {
                            const LaneVector& across) const {
         const F d;
         const LaneVector a = cross(p, along), b = cross(p, across);
-        const Lanes lengths = hn::Sqrt(hn::Mul(dot(a, a), dot(b, b)));
+        const Lanes a2 = dot(a, a), b2 = dot(b, b);
+        Lanes lengths = hn::Sqrt(hn::Mul(a2, b2));
+        const auto fits = hn::And(hn::Gt(lengths, hn::Zero(d)), hn::Lt(lengths, hn::Set(d, kInfinity)));
+        lengths = hn::IfThenElse(fits, lengths, hn::Mul(hn::Sqrt(a2), hn::Sqrt(b2)));
         const Lanes sine = hn::Div(hn::Mul(hn::Abs(dot(p, cross(along, across))), distance), lengths);
         const Lanes root = hn::Sqrt(hn::Div(sine, hn::Set(d, kSlantedSine)));
         const Lanes least = hn::Set(d, kLeastSlant), one = hn::Set(d, 1);

@@ -94,7 +94,9 @@ float LineMeasure::lens_angle(const V3f& p) const {
 float LineMeasure::slant(const V3f& p, const V3f& along, const V3f& across) const {
     const V3f ray = perspective_ ? p : V3f(0, 0, 1);
     const V3f a = ray.cross(along), b = ray.cross(across);  // as seen, but turned
-    const float lengths = std::sqrt(a.dot(a) * b.dot(b));
+    float lengths = std::sqrt(a.dot(a) * b.dot(b));
+    // The product is of the eighth power of a length: too large or too small for things far away or tiny.
+    if (!(lengths > 0 && lengths < kInfinity)) lengths = std::sqrt(a.dot(a)) * std::sqrt(b.dot(b));
     if (!(lengths > 0)) return 1;
     const float sine = std::abs(ray.dot(along.cross(across))) * ray.length() / lengths;
     return std::clamp(std::sqrt(sine / kSlantedSine), kLeastSlant, 1.0f);

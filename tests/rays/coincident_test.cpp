@@ -69,6 +69,30 @@ TEST(Coincident, WithLittleMemoryToo) {
     expect_through(kHalfClear + wall("2") + wall("2") + wall("2"), ".125", ".4375", {}, size_t{1} << 20);
 }
 
+/// Of a solid the parts' surfaces make one border, wherever they lie.
+TEST(Coincident, PartsOfASolidMakeOneBorder) {
+    const auto box = [](const std::string& z0, const std::string& z1) {
+        std::string faces =
+            "SolidBegin \"primitive\" PointsPolygons [4 4 4 4 4 4] [0 1 3 2 5 4 6 7 1 0 4 5 2 3 7 6 0 2 6 4 3 1 5 7] \"P\" [";
+        for (const std::string& z : {z0, z1})
+            for (const char* y : {"-6", "6"})
+                for (const char* x : {"-6", "6"}) faces += std::string(x) + " " + y + " " + z + " ";
+        return faces + "] SolidEnd ";
+    };
+    for (const std::string kind : {"intersection", "union"})
+        expect_through(
+            kHalfClear + "SolidBegin \"" + kind + "\" " + box("2", "4") + box("2", "4.5") + "SolidEnd ",
+            ".25", ".375");
+}
+
+/// What stands first in the scene hides what lies there, too.
+TEST(Coincident, TheFirstIsInFront) {
+    const std::string red = "Opacity 1 1 1 Color .25 1 1 Surface \"constant\" " + wall("2");
+    const std::string dark = "Opacity 1 1 1 Color .75 1 1 Surface \"constant\" " + wall("2");
+    expect_through(red + dark, "0", ".25");
+    expect_through(dark + red, "0", ".75");
+}
+
 /// A mesh is one surface: a ray through an edge that its faces share meets it once.
 TEST(Coincident, FacesOfOneMeshAreOneSurface) {
     std::string mesh = "PointsPolygons [4 4 4 4] [0 1 4 3 1 2 5 4 3 4 7 6 4 5 8 7] \"P\" [";

@@ -40,6 +40,19 @@ TEST(RaysAndLevelsOfDetail, AsOftenAsItCovers) {
     EXPECT_NEAR(mean_found(seen), .5, .03);
 }
 
+/// Instances that could share what rays meet are not seen alike where one is in transition.
+TEST(RaysAndLevelsOfDetail, OfInstances) {
+    Case c;
+    std::string things = "ObjectBegin 1 Patch \"bilinear\" \"P\" [-1 1 0 1 1 0 -1 -1 0 1 -1 0] ObjectEnd ";
+    for (int i = 0; i < 4; ++i) {
+        if (i == 3) things += first_level("2048", "6144");
+        things +=
+            "AttributeBegin Translate " + std::to_string(3 * (3 - i)) + " 0 3 ObjectInstance 1 AttributeEnd ";
+    }
+    c.things = "Surface \"constant\" " + things;
+    EXPECT_NEAR(mean_red(c.render("Ci = transmission(P, P - vector(0, 0, 5));")), .5, .05);
+}
+
 /// A level does not see the other one, which stands in its place: balls within balls see nothing of each
 /// other.
 TEST(RaysAndLevelsOfDetail, SeeTheirOwnLevelAlone) {

@@ -63,6 +63,13 @@ TEST(RayAttributes, OldWordsSayWhoseOpacityHides) {
         through(words + "\"opaque\"", "0");
         through(words + "\"Os\"", ".5");
     }
+    // Also of what is seen through something.
+    Case c;
+    c.shaders["haze"] = "volume haze() { Oi = 1 - .5 * (1 - Oi); }";
+    c.things = "Attribute " + seen + "\"opaque\" Opacity .5 .5 .5 Surface \"constant\" Exterior \"haze\" " +
+               wall("3");
+    c.asker = "Exterior \"haze\" ";
+    expect_told(c.render("Ci = told(comp(transmission(P, point(0, 0, 0)), 0), 0, 1);"), 0, 64 * 64);
     through(seen + "\"transparent\"", "1");
     through(seen + "\"shader\"", ".75");
     through(casts + "\"shade\"", ".75");

@@ -1,5 +1,7 @@
 #include "shade/maps/headers/header_bytes.h"
 
+#include <algorithm>
+
 namespace trapeze {
 
 HeaderBytes::HeaderBytes(const std::string& path) : file_(path, std::ios::binary | std::ios::ate) {
@@ -13,10 +15,15 @@ std::string HeaderBytes::text(size_t bytes) {
         good_ = false;
         return {};
     }
-    std::string read(bytes, '\0');
-    file_.seekg(static_cast<std::streamoff>(at_));
-    file_.read(read.data(), static_cast<std::streamsize>(bytes));
-    if (!file_) good_ = false;
+    constexpr uint64_t kBlock = 4096;
+    if (at_ < block_at_ || at_ + bytes > block_at_ + block_.size()) {
+        block_at_ = at_;
+        block_.assign(std::min(std::max(uint64_t{bytes}, kBlock), size_ - at_), '\0');
+        file_.seekg(static_cast<std::streamoff>(at_));
+        file_.read(block_.data(), static_cast<std::streamsize>(block_.size()));
+        if (!file_) good_ = false;
+    }
+    const std::string read = block_.substr(at_ - block_at_, bytes);
     at_ += bytes;
     return read;
 }

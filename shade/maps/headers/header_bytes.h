@@ -31,6 +31,8 @@ class HeaderBytes {
 
   private:
     std::ifstream file_;
+    std::string block_;  ///< bytes around what was read last
+    uint64_t block_at_ = 0;
     uint64_t size_ = 0, at_ = 0;
     bool little_ = false, good_ = false;
 };

@@ -99,8 +99,8 @@ std::optional<MapHeader> plain_jpeg(HeaderBytes& bytes) {
     while (bytes.is_good()) {
         if (bytes.u8() != kFirstMarker) return {};
         const uint32_t marker = bytes.u8();
-        const uint64_t end = bytes.position() + bytes.u16();
-        if (end < bytes.position() || !bytes.has(end, 0)) return {};
+        const uint64_t begin = bytes.position(), end = begin + bytes.u16();
+        if (end < begin + 2 || !bytes.has(end, 0)) return {};
         if (marker == kScan) {
             if (!frame || !is_plain_scan(bytes, end, *frame, huffman)) return {};
             for (const uint32_t table : frame->quantization)

@@ -69,46 +69,58 @@ StatementPtr call_of(const std::string& name, const std::vector<std::string_view
 }
 
 // A class that shades and displaces is two shaders: what displaces leaves its members in output parameters
-// under names that no source has, and what shades asks for them by a message, as displacement() does.
+// under names that no source has, and what shades asks for them by a message, as displacement() does. Other
+// classes, which may displace in its place, have other names.
 
-std::string handed_name(const Variable& member) {
-    return "member:" + member.name;
-}
+struct HandedMember {
+    std::string name, handed_name;
+    Type type;
+    SourceLocation at;
+};
 
-/// Members that are handed over: numbers, points and their like, and texts.
-std::vector<const Variable*> handed_members(const std::vector<StatementPtr>& members) {
-    std::vector<const Variable*> handed;
+/// Members that are handed over, and output parameters: numbers, points and their like, and texts.
+std::vector<HandedMember> handed_members(const std::string& of_class,
+                                         const std::vector<std::unique_ptr<Variable>>& parameters,
+                                         const std::vector<StatementPtr>& members) {
+    std::vector<HandedMember> handed;
+    const auto add = [&](const Variable& variable) {
+        if (variable.structure || variable.type.is_array()) return;
+        handed.push_back(
+            {variable.name, "member:" + of_class + ":" + variable.name, variable.type, variable.at});
+    };
+    for (const auto& parameter : parameters)
+        if (parameter->output) add(*parameter);
     for (const StatementPtr& statement : members)
-        for (const auto& variable : statement->variables)
-            if (!variable->structure && !variable->type.is_array()) handed.push_back(variable.get());
+        for (const auto& variable : statement->variables) add(*variable);
     return handed;
 }
 
-void hand_over(const std::vector<const Variable*>& members, Shader& displacement) {
-    for (const Variable* member : members) {
+/// What is uniform goes as varying: it has become that where it got a value that varies, which was said.
+void hand_over(const std::vector<HandedMember>& members, Shader& displacement) {
+    for (const HandedMember& member : members) {
         auto parameter = std::make_unique<Variable>();
-        parameter->name = handed_name(*member);
-        parameter->type = member->type;
-        parameter->storage = member->storage == Storage::Uniform ? Storage::Uniform : Storage::Varying;
+        const bool is_text = member.type.base == Base::String;
+        parameter->name = member.handed_name;
+        parameter->type = member.type;
+        parameter->storage = is_text ? Storage::Uniform : Storage::Varying;
         parameter->kind = Variable::Kind::Parameter;
         parameter->output = true;
-        parameter->at = member->at;
-        const bool is_text = member->type.base == Base::String;
+        parameter->at = member.at;
         parameter->initial =
-            expression_of(is_text ? Expression::Kind::Text : Expression::Kind::Number, "", member->at);
-        ExpressionPtr told = expression_of(Expression::Kind::Assignment, "", member->at);
-        add_child(*told, Expression::Kind::Variable, parameter->name);
-        add_child(*told, Expression::Kind::Variable, member->name);
+            expression_of(is_text ? Expression::Kind::Text : Expression::Kind::Number, "", member.at);
+        ExpressionPtr told = expression_of(Expression::Kind::Assignment, "", member.at);
+        add_child(*told, Expression::Kind::Variable, member.handed_name);
+        add_child(*told, Expression::Kind::Variable, member.name);
         displacement.body->children.push_back(evaluate(std::move(told)));
         displacement.parameters.push_back(std::move(parameter));
     }
 }
 
-void take_over(const std::vector<const Variable*>& members, std::vector<StatementPtr>& calls) {
-    for (const Variable* member : members) {
-        ExpressionPtr asked = expression_of(Expression::Kind::Call, "displacement", member->at);
-        add_child(*asked, Expression::Kind::Text, handed_name(*member));
-        add_child(*asked, Expression::Kind::Variable, member->name);
+void take_over(const std::vector<HandedMember>& members, std::vector<StatementPtr>& calls) {
+    for (const HandedMember& member : members) {
+        ExpressionPtr asked = expression_of(Expression::Kind::Call, "displacement", member.at);
+        add_child(*asked, Expression::Kind::Text, member.handed_name);
+        add_child(*asked, Expression::Kind::Variable, member.name);
         calls.push_back(evaluate(std::move(asked)));
     }
 }
@@ -167,7 +179,9 @@ void Parser::class_definition() {
     unit_->shaders.back()->displaces = displaces;
     if (!displaces || reporter_.failed()) return;
     next_ = first;
+    skips_twins_ = true;
     unit_->shaders.push_back(shader_of(class_parts(), ShaderKind::Displacement));
+    skips_twins_ = false;
 }
 
 Parser::ClassParts Parser::class_parts() {
@@ -266,13 +280,14 @@ std::unique_ptr<Shader> Parser::shader_of(ClassParts parts, ShaderKind kind) {
     shader->body->at = parts.at;
     std::vector<StatementPtr>& statements = shader->body->children;
     const ClassParts::Method* const displaces = parts.find("displacement");
-    std::vector<const Variable*> handed;
-    if (displaces && parts.kind() != ShaderKind::Displacement) handed = handed_members(parts.members);
+    std::vector<HandedMember> handed;
+    if (displaces && parts.kind() == ShaderKind::Surface)
+        handed = handed_members(parts.name, shader->parameters, parts.members);
     for (StatementPtr& member : parts.members) statements.push_back(std::move(member));
     for (size_t i = 0; i < parts.methods.size(); ++i) parts.numbers[parts.methods[i].name].push_back(i);
     // Others, such as those that shade where this one displaces, may name what this kind does not have.
     std::vector<StatementPtr> calls;
-    bool takes_over = kind != ShaderKind::Displacement;
+    bool takes_over = kind == ShaderKind::Surface;
     for (const RendererMethod& called : kRendererMethods) {
         if (called.kind && std::exchange(takes_over, false)) take_over(handed, calls);
         const ClassParts::Method* const method = parts.find(called.name);

@@ -46,7 +46,9 @@ void Parser::struct_members(Struct& made) {
 /// A function of the file, whose name tells the struct.
 void Parser::struct_method(Struct& made) {
     const size_t before = unit_->functions.size();
+    const bool skipped = std::exchange(skips_twins_, true);
     function("");
+    skips_twins_ = skipped;
     if (unit_->functions.size() == before) return;  // a prototype
     Function& method = *unit_->functions.back();
     const std::string name = std::exchange(method.name, made.name + "->" + method.name);

@@ -246,23 +246,20 @@ void Parser::function(std::string inside) {
     unit_->functions.push_back(std::move(function));
 }
 
-/// Of functions that no call could tell apart the first counts (Analyser::candidates()). Those of one place
-/// are one, of a class that is read twice.
+/// Of functions that no call could tell apart the first counts (Analyser::candidates()).
 void Parser::warn_of_twin(const Function& function) {
-    const auto is_same_place = [](const SourceLocation& a, const SourceLocation& b) {
-        return a.source == b.source && a.line == b.line && a.column == b.column;
+    if (skips_twins_) return;
+    const auto name_of = [](const Type& type, const Struct* structure) {
+        return structure ? structure->name : print(type);
     };
-    const auto is_alike = [](const auto& a, const auto& b) {
-        return a->type == b->type && a->structure == b->structure;
-    };
-    for (const auto& other : unit_->functions)
-        if (other->name == function.name && other->inside == function.inside &&
-            !is_same_place(other->at, function.at) && other->result == function.result &&
-            other->result_structure == function.result_structure && !other->method_of &&
-            std::ranges::equal(other->parameters, function.parameters, is_alike))
-            return reporter_.warning(function.at, "function \"" + function.name +
-                                                      "\" is defined before with the same parameters: the "
-                                                      "first definition counts");
+    std::string signature = function.inside + '\n' + name_of(function.result, function.result_structure) +
+                            ' ' + function.name + '(';
+    for (const auto& parameter : function.parameters)
+        signature += name_of(parameter->type, parameter->structure) + ',';
+    if (!signatures_.insert(std::move(signature)).second)
+        reporter_.warning(function.at, "function \"" + function.name +
+                                           "\" is defined before with the same parameters: the first "
+                                           "definition counts");
 }
 
 /// Parameters between parentheses: "float a = 1, b; color c". A type holds until the next ; or type, and a

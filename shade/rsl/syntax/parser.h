@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include "shade/rsl/syntax/ast.h"
@@ -138,6 +139,8 @@ class Parser {
     const std::vector<Token>& tokens_;
     Reporter& reporter_;
     std::unique_ptr<TranslationUnit> unit_ = std::make_unique<TranslationUnit>();
+    std::unordered_set<std::string> signatures_;  ///< of all functions so far but methods of structs
+    bool skips_twins_ = false;                    ///< methods of structs, and of a class that is read again
     std::map<std::string, const Struct*, std::less<>> structs_;  // defined so far
     std::string inside_;                                         // the shader or function whose body is read
     bool returns_value_ = false;                                 // it has a "return" with a value
