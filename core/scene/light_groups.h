@@ -18,10 +18,10 @@ inline constexpr const char* kUnlitGroup = "unlit";
 /// The output variable of a group is called so, and the group's name.
 inline constexpr std::string_view kLightGroupPrefix = "lightgroup:";
 
-/// The group of a light. An empty name is none.
+/// The group of a light. An empty name is none, and so is that of what no light makes.
 inline std::string light_group_of(const ShaderInstance& light) {
     const std::string group = light.parameters.string_or(kLightGroupParameter, "");
-    return group.empty() ? kDefaultLightGroup : group;
+    return group.empty() || group == kUnlitGroup ? kDefaultLightGroup : group;
 }
 
 /// All groups of the lights that are switched on for a scene's primitives, in alphabetical order.

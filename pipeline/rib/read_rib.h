@@ -57,6 +57,9 @@ struct ReadOptions {
     /// come where it is read, after the ReadArchive (or between an AttributeBegin and an AttributeEnd after a
     /// Procedural). False: the request is not carried out. May be empty.
     std::function<bool(const rib::RequestText&)> on_request;
+    /// on_request is told of ArchiveBegin, ArchiveEnd and all that stands in between, too, as it stands
+    /// there; what it answers means nothing then.
+    bool tells_archives = false;
     const std::atomic<bool>* cancelled = nullptr;  ///< ends the reading; no further world is delivered
 
     bool keep_geometry = true;                  ///< false: primitives are validated and counted, not kept

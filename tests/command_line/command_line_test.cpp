@@ -125,6 +125,7 @@ TEST(CommandLine, ExitCodesSayWhatWentWrong) {
     EXPECT_EQ(run_program(folder, "render shader.rib").exit_code, 1);
     EXPECT_EQ(run_program(folder, "check shader.rib").exit_code, 1);
     EXPECT_EQ(run_program(folder, "render shader.rib --strict").exit_code, 5);
+    EXPECT_EQ(run_program(folder, "check shader.rib --strict").exit_code, 5);
     EXPECT_EQ(run_program(folder, "render a.rib -o no/such/folder/x.exr").exit_code, 6);
     EXPECT_EQ(run_program(folder, "check a.rib").exit_code, 0);
     EXPECT_EQ(run_program(folder, "check wrong.rib").exit_code, 1);
@@ -145,6 +146,39 @@ TEST(CommandLine, CheckListsWhatIsNotHonoured) {
               "no effect Option \"limits\" \"eyesplits\" 1\n"
               "no effect PixelVariance 1\n");
     EXPECT_EQ(run_program(folder, "check --strict a.rib").exit_code, 1);
+}
+
+/// What would be said of pictures while they are rendered.
+TEST(CommandLine, CheckLooksAtDisplays) {
+    WorkFolder folder;
+    folder.write(
+        "a.rib",
+        "Display \"a.exr\" \"exr\" \"foo\" Display \"+b.exr\" \"exr\" \"rgba\" \"string compression\" \"none of it\" "
+        "WorldBegin Sphere 1 -1 1 360 WorldEnd");
+    const Outcome outcome = run_program(folder, "check a.rib");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("\"foo\""), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("\"none of it\""), std::string::npos) << outcome.err;
+    EXPECT_EQ(run_program(folder, "check --strict a.rib").exit_code, 1);
+    EXPECT_FALSE(fs::exists(folder / "a.exr"));
+    EXPECT_FALSE(fs::exists(folder / "b.exr"));
+}
+
+/// Archives that stand in the file itself are kept where archives are, and put in their places otherwise.
+TEST(CommandLine, CatKeepsArchivesOfTheFileItself) {
+    WorkFolder folder;
+    folder.write(
+        "a.rib",
+        "ArchiveBegin \"outer\" Sphere 2 -2 2 360 ArchiveBegin \"inner\" Sphere 1 -1 1 360 ArchiveEnd "
+        "ReadArchive \"inner\" ArchiveEnd WorldBegin ReadArchive \"outer\" WorldEnd");
+    EXPECT_EQ(
+        run_program(folder, "cat --keep-archives a.rib").out,
+        "##RenderMan RIB-Structure 1.1\nArchiveBegin \"outer\"\n  Sphere 2 -2 2 360\n  ArchiveBegin \"inner\"\n"
+        "    Sphere 1 -1 1 360\n  ArchiveEnd\n  ReadArchive \"inner\"\nArchiveEnd\nWorldBegin\n"
+        "  ReadArchive \"outer\"\nWorldEnd\n");
+    EXPECT_EQ(
+        run_program(folder, "cat a.rib").out,
+        "##RenderMan RIB-Structure 1.1\nWorldBegin\n  Sphere 2 -2 2 360\n  Sphere 1 -1 1 360\nWorldEnd\n");
 }
 
 TEST(CommandLine, RibOfTheCommandLineAndOfTheUserComesFirst) {

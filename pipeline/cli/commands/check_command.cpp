@@ -5,6 +5,7 @@
 #include "pipeline/cli/commands/made_files.h"
 #include "pipeline/cli/support/exit_codes.h"
 #include "pipeline/cli/support/interrupt.h"
+#include "pipeline/cli/support/missing_shaders.h"
 #include "pipeline/cli/support/read_settings.h"
 #include "pipeline/frame/make_context.h"
 #include "pipeline/frame/make_map.h"
@@ -60,10 +61,10 @@ void CheckJob::take_world(const Scene& scene) {
         texture_folders == scene.options.search_paths.end() ? none : texture_folders->second;
     check_looks(
         context, [&](std::string_view name) { return made_.has(name, folders); }, access_);
-    Diagnostics unsaid;
     const AovLayout layout = aov_layout(scene.options);
     for (const Display& display : scene.options.displays)
-        if (const auto plan = plan_display(display, scene.options, layout, unsaid)) made_.add(plan->path);
+        if (const auto plan = plan_display(display, scene.options, layout, diagnostics_))
+            made_.add(plan->path);
 }
 
 /// Reports the pictures of a map request that neither are there nor would have been made.
@@ -89,6 +90,7 @@ int check_command(const Arguments& arguments, Terminal& terminal, Diagnostics& d
     for (const auto& [name, count] : summary.unsupported) fmt::print("unsupported {} {}\n", name, count);
     for (const auto& [name, count] : summary.without_effect) fmt::print("no effect {} {}\n", name, count);
     for (const auto& [name, count] : summary.not_needed) fmt::print("not needed {} ({})\n", name, count);
+    if (arguments.strict && has_missing_shader(diagnostics)) return kExitShaderMissing;
     const bool all_honoured = diagnostics.count(Severity::Warning) == 0 && summary.unsupported.empty() &&
                               summary.without_effect.empty();
     const bool bad = diagnostics.count(Severity::Error) > 0 || (arguments.strict && !all_honoured);

@@ -14,6 +14,7 @@
 #include "pipeline/cli/commands/world_outputs.h"
 #include "pipeline/cli/support/exit_codes.h"
 #include "pipeline/cli/support/interrupt.h"
+#include "pipeline/cli/support/missing_shaders.h"
 #include "pipeline/cli/support/on_threads.h"
 #include "pipeline/cli/support/read_settings.h"
 #include "pipeline/cli/support/stats_json.h"
@@ -31,12 +32,6 @@ namespace trapeze {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool has_missing_shader(const Diagnostics& diagnostics) {
-    const auto kinds = diagnostics.kinds();
-    return std::any_of(kinds.begin(), kinds.end(),
-                       [](const auto& kind) { return kind.first.starts_with("missing-shader"); });
-}
 
 /// The files that sources of messages are: scenes, archives, shaders.
 std::vector<std::string> files_read(const Diagnostics& diagnostics) {

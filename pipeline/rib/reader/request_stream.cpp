@@ -166,6 +166,10 @@ void RequestStream::read_again(ReadyArchive& ready, uint32_t source) {
 void RequestStream::record_archive(RequestText& request, Lexer& lexer, std::string_view text) {
     report_.set_request(request.at, request.name);
     ++report_.summary().requests[request.name];
+    const auto tell = [&] {
+        if (read_options_.tells_archives && read_options_.on_request) read_options_.on_request(request);
+    };
+    tell();
     std::optional<std::string> handle;
     try {
         handle = ArgumentCursor(request).handle("the archive's name");
@@ -182,6 +186,7 @@ void RequestStream::record_archive(RequestText& request, Lexer& lexer, std::stri
             report_.error("ArchiveEnd is missing; the archive ends with the file");
             break;
         }
+        tell();
         depth += request.name == "ArchiveBegin" ? 1 : request.name == "ArchiveEnd" ? -1 : 0;
     }
     if (handle)

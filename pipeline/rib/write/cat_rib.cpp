@@ -39,6 +39,7 @@ ReadSummary cat_rib(std::span<const std::string> files, const CatOptions& cat, D
     options.max_source_bytes = cat.max_source_bytes;
     options.access = cat.access;
     options.cancelled = cat.cancelled;
+    options.tells_archives = cat.keep_archives;
     options.on_request = [&](const RequestText& request) {
         const bool reads = reads_archive(request);
         if (!reads || cat.keep_archives) writer.write(request);
