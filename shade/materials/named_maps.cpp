@@ -135,7 +135,11 @@ std::set<std::string> variables_of(const Scene& scene) {
 }
 
 std::vector<NamedMap> named_maps(const BoundShader& shader, const std::set<std::string>& varied) {
-    return Specialised(shader, varied).maps();
+    // Most shaders ask for none, and are not made again to see that.
+    const bool asks = std::ranges::any_of(shader.program().code, [](const rsl::Instruction& instruction) {
+        return rsl::row_of(instruction.op).context == rsl::ContextFamily::Maps;
+    });
+    return asks ? Specialised(shader, varied).maps() : std::vector<NamedMap>();
 }
 
 rsl::Program specialised_program(const BoundShader& shader, const std::set<std::string>& varied) {

@@ -24,14 +24,13 @@ std::string shown(std::string name) {
 void report_unknown_parameters(const ShaderInstance& instance, const rsl::Program& program,
                                Diagnostics& diagnostics) {
     for (const Parameter& given : instance.parameters.values) {
-        rsl::Suggestion suggestion(given.name);
-        bool is_known = false;
-        for (const rsl::ProgramParameter& parameter : program.parameters) {
-            is_known = is_known || parameter.name == given.name;
-            suggestion.consider(parameter.name);
-        }
+        const auto is_it = [&](const rsl::ProgramParameter& parameter) {
+            return parameter.name == given.name;
+        };
         const bool names_group = program.kind == rsl::ShaderKind::Light && given.name == kLightGroupParameter;
-        if (is_known || names_group) continue;
+        if (names_group || std::ranges::any_of(program.parameters, is_it)) continue;
+        rsl::Suggestion suggestion(given.name);
+        for (const rsl::ProgramParameter& parameter : program.parameters) suggestion.consider(parameter.name);
         diagnostics.warning(instance.location,
                             fmt::format("shader \"{}\" has no parameter \"{}\"{}", shown(instance.name),
                                         shown(given.name), suggestion.text()),
