@@ -54,7 +54,11 @@ Interrupt::Interrupt(std::optional<double> time_limit, std::function<void()> bef
 }
 
 Interrupt::~Interrupt() {
-    done_ = true;
+    {
+        const std::lock_guard lock(mutex_);
+        done_ = true;
+    }
+    ended_.notify_all();
     watcher_.join();
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
@@ -69,14 +73,19 @@ int Interrupt::exit_code() const {
     return 128 + (g_signal ? static_cast<int>(g_signal) : SIGINT);
 }
 
+/// Commands take less time than is between two looks: they must not wait for the next.
+void Interrupt::pause() {
+    std::unique_lock lock(mutex_);
+    ended_.wait_for(lock, kPoll, [this] { return done_.load(); });
+}
+
 void Interrupt::watch() {
-    while (!done_ && g_signal == 0 && !(deadline_ && !unlimited_ && Clock::now() >= *deadline_))
-        std::this_thread::sleep_for(kPoll);
+    while (!done_ && g_signal == 0 && !(deadline_ && !unlimited_ && Clock::now() >= *deadline_)) pause();
     if (done_) return;
     too_late_ = g_signal == 0;
     g_requested = true;
     const auto asked = Clock::now();
-    while (!done_ && Clock::now() - asked < kPatience) std::this_thread::sleep_for(kPoll);
+    while (!done_ && Clock::now() - asked < kPatience) pause();
     if (done_) return;
     if (before_end_) before_end_();
     if (done_) return;

@@ -5,7 +5,9 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -34,10 +36,14 @@ class Interrupt {
   private:
     using Clock = std::chrono::steady_clock;
     void watch();
+    /// Until it is time to look again, or the end.
+    void pause();
 
     std::optional<Clock::time_point> deadline_;
     const std::function<void()> before_end_;
     std::atomic<bool> done_{false}, too_late_{false}, unlimited_{false};
+    std::mutex mutex_;  ///< for the end alone
+    std::condition_variable ended_;
     std::thread watcher_;
 };
 
