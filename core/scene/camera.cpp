@@ -61,9 +61,11 @@ Camera make_camera(const Options& options) {
     camera.plane_scale_y = (window[2] - window[3]) * camera.tan_half_fov / static_cast<float>(options.height);
     camera.plane_offset_y = window[3] * camera.tan_half_fov;
     // RISpec 4.1.1: the pixels from ceil(size * min) to ceil(size * max) - 1, so that neighbouring crops
-    // abut.
+    // abut. Three tenths of 200 pixels are 60, and not 61 since a float's .3 is a little more.
     const auto edge = [](float fraction, int size) {
-        return std::clamp(static_cast<int>(std::ceil(fraction * static_cast<float>(size))), 0, size);
+        constexpr double kRounding = 0x1p-23;
+        const double at = static_cast<double>(fraction) * size;
+        return std::clamp(static_cast<int>(std::ceil(at - at * kRounding)), 0, size);
     };
     camera.crop = {edge(options.crop_window[0], options.width), edge(options.crop_window[2], options.height),
                    edge(options.crop_window[1], options.width), edge(options.crop_window[3], options.height)};

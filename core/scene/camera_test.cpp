@@ -115,6 +115,18 @@ TEST(Camera, NeighbouringCropsAbut) {
     }
 }
 
+TEST(Camera, CropsEndWhereTheirFractionsSay) {
+    Options options = small_options();
+    options.crop_window = {.3f, .5f, .2f, .6f};
+    EXPECT_EQ(make_camera(options).crop, (PixelRect{60, 20, 100, 60}));
+    for (int i = 0; i <= 10; ++i) {
+        options.crop_window = {static_cast<float>(i) / 10, 1, 0, static_cast<float>(i) / 10};
+        const PixelRect crop = make_camera(options).crop;
+        EXPECT_EQ(crop.x0, 20 * i);
+        EXPECT_EQ(crop.y1, 10 * i);
+    }
+}
+
 TEST(Camera, SampledPixelsReachAsFarAsTheFilter) {
     Options options = small_options();
     options.crop_window = {0.5f, 0.75f, 0, 0.5f};
