@@ -28,15 +28,16 @@ Image black_image(const RasterScene& scene) {
     return image;
 }
 
-/// With a float, x + y / 64, and a triple, (x, y, x + y) / 64.
-Image image_with_variables(const RasterScene& scene) {
+/// With a float, x + y / 64, and a triple, (x, y, x + y) / 64, or two that are equal.
+Image image_with_variables(const RasterScene& scene, int triples = 1) {
     Image image = black_image(scene);
-    image.aov_channels = 4;
+    image.aov_channels = 1 + 3 * triples;
     for (int y = image.window.y0; y < image.window.y1; ++y)
         for (int x = image.window.x0; x < image.window.x1; ++x) {
             const auto column = static_cast<float>(x), row = static_cast<float>(y);
             const float values[] = {column + row / 64, column / 64, row / 64, (column + row) / 64};
             image.aovs.insert(image.aovs.end(), values, values + 4);
+            if (triples == 2) image.aovs.insert(image.aovs.end(), values + 1, values + 4);
         }
     return image;
 }
@@ -51,7 +52,7 @@ TEST(WriteVariables, OutputVariablesHaveFilesOfTheirOwn) {
         testing::aov_display("foo", ValueType::Float, folder.file("foo.exr")),
         testing::aov_display("N", ValueType::Normal, folder.file("N.exr")),
         testing::aov_display("N", ValueType::Color, folder.file("N_as_color.exr"))};
-    const Image image = image_with_variables(scene);
+    const Image image = image_with_variables(scene, 2);
     EXPECT_TRUE(writes(image, scene));
     const struct {
         const char *file, *channel;
@@ -75,7 +76,8 @@ TEST(WriteVariables, OutputVariablesHaveFilesOfTheirOwn) {
         buffer.insert(c.channel, Imf::Slice::Make(Imf::FLOAT, values.data(), in.header().dataWindow()));
         in.setFrameBuffer(buffer);
         in.readPixels(15, 29);
-        for (size_t i = 0; i < values.size(); ++i) ASSERT_EQ(values[i], image.aovs[4 * i + c.from]) << c.file;
+        for (size_t i = 0; i < values.size(); ++i)
+            ASSERT_EQ(values[i], image.aovs[7 * i + static_cast<size_t>(c.from)]) << c.file;
     }
 }
 

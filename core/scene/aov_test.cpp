@@ -24,8 +24,13 @@ TEST(AovLayout, EachVariableStandsOnceInTheOrderOfTheDisplays) {
     EXPECT_EQ(layout.aovs[1].offset, 3);
     EXPECT_EQ(layout.aovs[1].channels, 1);
     EXPECT_EQ(layout.aovs[2].offset, 4);
-    EXPECT_EQ(layout.find({"N", ValueType::Color}), &layout.aovs[0]);
-    EXPECT_EQ(layout.find({"s", ValueType::Normal}), &layout.aovs[2]);
+    EXPECT_EQ(layout.find({"N", ValueType::Point}), &layout.aovs[0]);
+    EXPECT_EQ(layout.find({"s", ValueType::Color}), &layout.aovs[2]);
+    // Opacity by channel is for colours alone.
+    EXPECT_FALSE(layout.aovs[0].is_color);
+    EXPECT_TRUE(layout.aovs[2].is_color);
+    EXPECT_EQ(layout.find({"N", ValueType::Color}), nullptr);
+    EXPECT_EQ(layout.find({"s", ValueType::Normal}), nullptr);
     EXPECT_EQ(layout.find({"t", ValueType::Float}), nullptr);
 }
 

@@ -63,7 +63,7 @@ struct Herd {
 };
 
 inline RaySegment some_ray(RayNumbers& number, const Herd& herd, float spread = 0) {
-    const V3f from(number(-8, 8), number(-8, 8), number(8, 32));
+    const V3f from{number(-8, 8), number(-8, 8), number(8, 32)};
     const auto target = static_cast<size_t>(number(0, static_cast<float>(herd.places.size()) - .01f));
     return ray_to(from, herd.places[target] + number.in_cube(herd.radius) - from, spread);
 }

@@ -54,7 +54,8 @@ class RayNumbers {
     float operator()(float low, float high) {
         return std::uniform_real_distribution<float>(low, high)(bits_);
     }
-    V3f in_cube(float side) { return V3f((*this)(-1, 1), (*this)(-1, 1), (*this)(-1, 1)) * side; }
+    /// Braces: drawn in the same order whatever the compiler.
+    V3f in_cube(float side) { return V3f{(*this)(-1, 1), (*this)(-1, 1), (*this)(-1, 1)} * side; }
 
   private:
     std::minstd_rand bits_;
