@@ -1,6 +1,7 @@
 /// What area lights shine from [decision 0030].
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>

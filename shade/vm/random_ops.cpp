@@ -1,5 +1,6 @@
 // random(): other numbers at each vertex and in each call, the same in each render.
 #include "core/random.h"
+#include "shade/operations/op_table.h"
 #include "shade/vm/context_ops.h"
 #include "shade/vm/kernels/random.h"
 
