@@ -26,4 +26,11 @@ inline V3f unit_or_zero(const V3f& v) {
     return length > 0 && std::isfinite(length) ? v / length : V3f(0, 0, 0);
 }
 
+/// The mean of three opacities or transmissions. Three equal ones are kept exactly: (1 + 1 + 1) * (1 / 3)
+/// need not be 1.
+inline float mean_of_channels(const V3f& value) {
+    const bool gray = value.x == value.y && value.y == value.z;
+    return gray ? value.x : (value.x + value.y + value.z) / 3;
+}
+
 }  // namespace trapeze

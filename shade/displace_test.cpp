@@ -203,11 +203,20 @@ TEST(Displacement, BySurfacesThatAreClassesWithinTheBound) {
     EXPECT_TRUE(Shading(scene.context).displacing_surfaces()(0));
 }
 
+/// Classes that shade and displace, within a bound of .5.
+struct DisplacingClasses : ShadingScene {
+    ShaderFolder folder;
+
+    DisplacingClasses() {
+        scene.options.search_paths["shader"] = {folder.path()};
+        attributes->displacement_bound = 0.5f;
+    }
+};
+
 /// What displacement() leaves in the class's members the methods that shade find there.
 TEST(Displacement, LeavesMembersOfClassesToTheirSurfaces) {
-    ShadingScene scene;
-    const ShaderFolder folder;
-    folder.write(
+    DisplacingClasses scene;
+    scene.folder.write(
         "both",
         "class both() {"
         "  varying float high = 0; varying color tint = 0; uniform float k = 3; string word = \"none\";"
@@ -217,8 +226,6 @@ TEST(Displacement, LeavesMembersOfClassesToTheirSurfaces) {
         "  public void surface(output color Ci, Oi) {"
         "    Oi = 1; Ci = color(high, comp(tint, 1), k + (word == \"moved\" ? 10 : 0)); }"
         "}");
-    scene.scene.options.search_paths["shader"] = {folder.path()};
-    scene.attributes->displacement_bound = 0.5f;
     scene.surface("both");
     const ShadingGrid before = scene.grid(), after = scene.shaded(before);
     EXPECT_TRUE(scene.reported.empty());
@@ -227,18 +234,15 @@ TEST(Displacement, LeavesMembersOfClassesToTheirSurfaces) {
 }
 
 TEST(Displacement, ByAnotherClassLeavesMembersAsTheyAre) {
-    ShadingScene scene;
-    const ShaderFolder folder;
+    DisplacingClasses scene;
     for (const char* name : {"one", "two"})
-        folder.write(
+        scene.folder.write(
             name, "class " + std::string(name) +
                       "(output varying float told = 2;) { varying float high = 0;"
                       "  public void begin() { high = 9; }"
                       "  public void displacement(output point P; output normal N) {"
                       "    high = .25; told = 3; P += high * normalize(N); }"
                       "  public void surface(output color Ci, Oi) { Oi = 1; Ci = color(high, told, 0); } }");
-    scene.scene.options.search_paths["shader"] = {folder.path()};
-    scene.attributes->displacement_bound = 0.5f;
     scene.surface("one");
     EXPECT_EQ(scene.shaded(scene.grid()).Ci.at(0), V3f(.25f, 3, 0));
     scene.displacement("two");

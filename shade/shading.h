@@ -54,11 +54,11 @@ class Shading {
     bool asks_rays() const;
     /// Whether the shaders that may ask for rays ask point clouds instead, if these can be read.
     bool asks_clouds_alone() const;
-    /// The lights whose shapes are meshes, to be made of the primitives whose emitters they are.
     struct MeshLight {
         const LightInstance* light = nullptr;
         bool asks_place = false;  ///< its shader asks for LightMesh::places
     };
+    /// The lights whose shapes are meshes, to be made of the primitives whose emitters they are.
     std::vector<MeshLight> mesh_lights() const;
     /// Those meshes. Until then such lights are dark; they stay so, with a warning, without a mesh of any
     /// area.

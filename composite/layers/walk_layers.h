@@ -12,13 +12,6 @@
 
 namespace trapeze {
 
-/// The mean of three opacities or transmissions. Three equal ones are kept exactly: (1 + 1 + 1) * (1 / 3)
-/// need not be 1.
-inline float mean_of_channels(const V3f& value) {
-    const bool gray = value.x == value.y && value.y == value.z;
-    return gray ? value.x : (value.x + value.y + value.z) / 3;
-}
-
 /// How much of what is behind a layer its opacity hides, in one channel: 0 to 1.
 inline float hiding(const Layer& layer, int channel) {
     return std::clamp(layer.opacity[channel], 0.0f, 1.0f);

@@ -68,12 +68,12 @@ struct LeftSurface {
     }
 };
 
-/// Which of all hits one is, for who goes on behind it.
+/// Which of all hits one is, for who goes on behind it or finds its place.
 struct RayHitPlace {
     const void* grids = nullptr;     ///< in which it was found; null: nowhere
     const void* instance = nullptr;  ///< of what instances share
     float depth = 0;                 ///< there
-    uint64_t id = 0;
+    uint64_t id = 0;                 ///< MicropolygonId::packed()
 };
 
 /// The surfaces in one place that a ray has gone through. The last one's own next micropolygon may be met
@@ -136,10 +136,8 @@ struct RaySurfaceHit {
     bool keeps_opacity = true;  ///< no shader has to be asked for the opacity that hides others
     V3f opacity{1, 1, 1};       ///< the primitive's own, Os
     V3f color{1, 1, 1};         ///< the primitive's own, Cs
-    /// MicropolygonId::packed(): with `primitive` and `at`, what dice() finds the place by.
-    uint64_t id = 0;
-    V2f at{0, 0};  ///< within the micropolygon
-    RayHitPlace place;
+    RayHitPlace place;          ///< with `primitive` and `at`, what dice() finds it by
+    V2f at{0, 0};               ///< within the micropolygon
 };
 
 /// The geometry that rays meet, at any time of the shutter. Immutable: threads share it.

@@ -98,7 +98,6 @@ RaySurfaceHit RayHits::hit_of(const RaySegment& ray, const PlacedRay& placed, co
     }
     const Primitive& own = dicer_.context().scene->primitives[hit.primitive];
     if (placed.place && !brings_colors(own)) hit.color = own.attributes->color;
-    hit.id = found.hit.id;
     hit.place.instance = placed.place, hit.place.depth = found.hit.depth, hit.place.id = found.hit.id;
     hit.at = {weights.w[k10] + weights.w[k11], weights.w[k01] + weights.w[k11]};
     return hit;

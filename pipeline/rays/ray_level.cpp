@@ -230,7 +230,7 @@ void RayLevel::blocked(std::span<const RaySegment> rays, RayKind kind,
 }
 
 int RayLevel::dice(const RaySurfaceHit& hit, ShadingGrid& grid) const {
-    const MicropolygonId id = MicropolygonId::unpack(hit.id);
+    const MicropolygonId id = MicropolygonId::unpack(hit.place.id);
     const GridShape shape = dicer_.tessellation().subpatches()[id.grid].shape;
     const V2f at((static_cast<float>(id.u) + hit.at.x) / static_cast<float>(shape.nu),
                  (static_cast<float>(id.v) + hit.at.y) / static_cast<float>(shape.nv));

@@ -204,31 +204,28 @@ size_t Generator::begin_loop() {
     return code_->size();
 }
 
+/// Puts an instruction between those that are there. Who holds places of the code behind it counts on.
+void Generator::insert(size_t at, Op op, const Ids& operands, uint32_t region) {
+    Instruction made;
+    made.op = op;
+    made.outputs = 1;
+    made.region = region;
+    made.operands = operands;
+    made.at = at < code_->size() ? (*code_)[at].at : at_;
+    code_->insert(code_->begin() + static_cast<std::ptrdiff_t>(at), std::move(made));
+}
+
 /// The turns that random() asks for are counted from 0.
 void Generator::end_loop(size_t opening) {
     const Turns turns = turns_.back();
     turns_.pop_back();
-    if (!turns.number) return;
-    Instruction start;
-    start.op = Op::Move;
-    start.outputs = 1;
-    start.region = turns.outside;
-    start.operands = {*turns.number, constant(0)};
-    start.at = (*code_)[opening].at;
-    code_->insert(code_->begin() + static_cast<std::ptrdiff_t>(opening), std::move(start));
+    if (turns.number) insert(opening, Op::Move, {*turns.number, constant(0)}, turns.outside);
 }
 
 /// Counts a turn of the innermost loop, at a place of the code.
 void Generator::count_turn(uint32_t region, size_t at) {
-    if (!turns_.back().number) return;
-    const RegisterId number = *turns_.back().number;
-    Instruction more;
-    more.op = Op::Add;
-    more.outputs = 1;
-    more.region = region;
-    more.operands = {number, number, constant(1)};
-    more.at = at_;
-    code_->insert(code_->begin() + static_cast<std::ptrdiff_t>(at), std::move(more));
+    if (const auto number = turns_.back().number)
+        insert(at, Op::Add, {*number, *number, constant(1)}, region);
 }
 
 /// The turns of all loops around, the outermost first.
@@ -338,17 +335,11 @@ void Generator::keep_inputs(size_t opening) {
         const RegisterId input = (*code_)[opening].input(k);
         if (!std::binary_search(written.begin(), written.end(), input)) continue;
         if (program_->reg(input).type.is_array()) continue;
-        Instruction copy;
-        copy.op = Op::Move;
-        copy.outputs = 1;
-        copy.region = (*code_)[opening].region;
-        copy.operands = {temporary(base_of(input)), input};
-        copy.at = (*code_)[opening].at;
-        program_->registers[copy.output()].region = copy.region;
+        const RegisterId copy = temporary(base_of(input));
         Instruction& block = (*code_)[opening];
-        block.operands[block.outputs + k] = copy.output();
-        code_->insert(code_->begin() + static_cast<std::ptrdiff_t>(opening), std::move(copy));
-        ++opening;
+        program_->registers[copy].region = block.region;
+        block.operands[block.outputs + k] = copy;
+        insert(opening++, Op::Move, {copy, input}, block.region);
     }
 }
 

@@ -107,6 +107,7 @@ class Generator {
     void initialise(RegisterId id, const Variable& variable);
     void if_statement(const Statement& s);
     void loop_statement(const Statement& s);
+    void insert(size_t at, Op op, const Ids& operands, uint32_t region);
     size_t begin_loop();
     void end_loop(size_t opening);
     void add_turns(Ids& inputs);

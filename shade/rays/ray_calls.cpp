@@ -37,10 +37,6 @@ void put(const Operand& out, const RayLane& lane, const V3f& value) {
     put_lanes(out, lane.first, lane.count, value);
 }
 
-float mean_of(const V3f& color) {
-    return (color.x + color.y + color.z) / 3;
-}
-
 /// A float that tells of light tells its mean; of a map or a scene it is the first channel.
 bool is_mean(Op op) {
     return op == Op::Shadow || op == Op::Transmission || op == Op::Visibility;
@@ -54,7 +50,7 @@ float result_of_nothing(Op op, bool colors) {
 
 /// How much of the light along a ray is hidden.
 float hidden_by(const WalkedRay& ray, const RayArguments& arguments, size_t lane) {
-    return (1 - mean_of(ray.through)) * arguments.falloff_at(ray.distance, lane);
+    return (1 - mean_of_channels(ray.through)) * arguments.falloff_at(ray.distance, lane);
 }
 
 }  // namespace
@@ -146,7 +142,7 @@ struct LaneSums {
             if (output.name == "transmission") {
                 const V3f part = rays > 0 ? through / count : V3f(1, 1, 1);
                 const bool one = output.operand->stride == 0;
-                trapeze::put(*output.operand, lane, one ? V3f(mean_of(part)) : part);
+                trapeze::put(*output.operand, lane, one ? V3f(mean_of_channels(part)) : part);
             }
         }
     }
@@ -210,14 +206,14 @@ void RayCalls::tell(const Call& call, const Operand& out, std::span<const RayLan
             sum += call.share_of(one, lane);
             if (!sent.followed) continue;
             if (!sent.sky.empty()) sums.sky += sent.sky[ray];
-            sums.open_way += one.segment.direction * mean_of(one.through);
+            sums.open_way += one.segment.direction * mean_of_channels(one.through);
             sums.through += one.through;
             sums.hidden += hidden_by(one, arguments, lane);
             if (one.hits()) sums.way += one.told_distance(), ++sums.hits;
         }
         const V3f result = ray > from ? sum / static_cast<float>(ray - from) : nothing;
-        const bool is_grey = result.x == result.y && result.y == result.z;
-        put(out, lanes[i], is_grey || call.colors || !is_mean(call.step.op) ? result : V3f(mean_of(result)));
+        const bool is_one = !call.colors && is_mean(call.step.op);
+        put(out, lanes[i], is_one ? V3f(mean_of_channels(result)) : result);
         sums.put(arguments, lanes[i], ray - from);
     }
 }

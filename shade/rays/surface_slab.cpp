@@ -35,27 +35,6 @@ float bend_along(const Triples& P, const Triples& Ng, size_t i, size_t j, float 
     return kBendOfSides * side * side * turn / std::min(length, side);
 }
 
-bool deforms(const ShadingGrid& grid) {
-    return grid.primitive->shape_keys.size() > 1 && grid.P.size() > 1;
-}
-
-/// Of the slab's half thickness, so that rays leave their own slab before they come to that of another face,
-/// unless they are nearly along their own; of a side.
-constexpr float kInwards = 16, kMostInwards = 1.0f / 4;
-
-}  // namespace
-
-float rounding_at(const ShadingGrid& grid, size_t vertex) {
-    float reach =
-        grid.P.front().at(vertex).length() + grid.dPdu.at(vertex).length() + grid.dPdv.at(vertex).length();
-    const std::vector<M44f>& poses = grid.primitive->camera_from_object;
-    if (!poses.empty())
-        reach += 2 * V3f(poses.front()[3][0], poses.front()[3][1], poses.front()[3][2]).length();
-    return kRoundings * kRounding * reach;
-}
-
-namespace {
-
 /// bend_of() the vertices as they are at one key.
 float bend_at_key(const ShadingGrid& grid, size_t key, const Triples& Ng, const RayScene& scene,
                   float pixels) {
@@ -79,7 +58,24 @@ float bend_at_key(const ShadingGrid& grid, size_t key, const Triples& Ng, const 
     return most;
 }
 
+bool deforms(const ShadingGrid& grid) {
+    return grid.primitive->shape_keys.size() > 1 && grid.P.size() > 1;
+}
+
+/// Of the slab's half thickness, so that rays leave their own slab before they come to that of another face,
+/// unless they are nearly along their own; of a side.
+constexpr float kInwards = 16, kMostInwards = 1.0f / 4;
+
 }  // namespace
+
+float rounding_at(const ShadingGrid& grid, size_t vertex) {
+    float reach =
+        grid.P.front().at(vertex).length() + grid.dPdu.at(vertex).length() + grid.dPdv.at(vertex).length();
+    const std::vector<M44f>& poses = grid.primitive->camera_from_object;
+    if (!poses.empty())
+        reach += 2 * V3f(poses.front()[3][0], poses.front()[3][1], poses.front()[3][2]).length();
+    return kRoundings * kRounding * reach;
+}
 
 float bend_of(const ShadingGrid& grid, const RayScene& scene, float pixels) {
     float most = bend_at_key(grid, 0, grid.Ng, scene, pixels);

@@ -83,7 +83,7 @@ void expect_same(const std::optional<RaySurfaceHit>& hit, const std::optional<Fo
     if (!hit) return;
     ASSERT_EQ(hit->distance, truth->distance) << ray;
     ASSERT_EQ(hit->primitive, truth->primitive) << ray;
-    ASSERT_EQ(hit->id, truth->id) << ray;
+    ASSERT_EQ(hit->place.id, truth->id) << ray;
     ASSERT_EQ(hit->level, truth->level) << ray;
 }
 

@@ -126,7 +126,7 @@ TEST(RayInstances, AreAllMet) {
                     if (!hit) continue;
                     ASSERT_EQ(hit->distance, expected->distance) << i;
                     ASSERT_EQ(hit->primitive, expected->primitive) << i;
-                    ASSERT_EQ(hit->id, expected->id);
+                    ASSERT_EQ(hit->place.id, expected->place.id);
                     ASSERT_EQ(hit->at, expected->at);
                     ASSERT_EQ(hit->from_outside, expected->from_outside);
                     met.insert(hit->primitive / 6);

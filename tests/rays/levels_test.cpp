@@ -292,7 +292,7 @@ TEST(RayLevels, HitsAreTheSameBitsHoweverTheyAreAsked) {
                     ASSERT_EQ(hit.has_value(), alone.has_value()) << i;
                     if (!hit) continue;
                     ASSERT_EQ(hit->distance, alone->distance);
-                    ASSERT_EQ(hit->id, alone->id);
+                    ASSERT_EQ(hit->place.id, alone->place.id);
                     ASSERT_EQ(hit->level, alone->level);
                     ASSERT_EQ(hit->at, alone->at);
                     ASSERT_EQ(hit->from_outside, alone->from_outside);
