@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/math.h"
+#include "core/scene/ray_facet.h"
 #include "core/scene/ray_groups.h"
 #include "core/scene/scene.h"
 #include "core/scene/shading_grid.h"
@@ -33,6 +34,10 @@ struct RayFilter {
     RaySubset excluded;  ///< does not count, unless it names nothing
     /// What has no Interior shader does not count, either; it may where it is a part of a solid.
     bool with_inside = false;
+    std::optional<uint32_t> primitive;  ///< the only one that counts
+    /// RaySurfaceHit::facet: as the ray meets it, or at all times.
+    enum class Facets : uint8_t { NotTold, ThisTime, AllTimes };
+    Facets facets = Facets::NotTold;
 
     /// Whether primitives that are in these groups count.
     bool admits(const std::vector<std::string>& groups) const {
@@ -101,6 +106,8 @@ class PassedSurfaces {
         return false;
     }
     const RayHitPlace& last() const { return last_; }
+    /// The ray begins behind a hit: what is met behind it counts, be it as near.
+    void begin_behind(const RayHitPlace& hit) { last_ = hit; }
 
   private:
     static constexpr uint32_t kMost = 8;
@@ -133,11 +140,12 @@ struct RaySurfaceHit {
     bool from_outside = true;                   ///< else it comes from within the surface
     uint8_t level = 0;                          ///< of the geometry that was met: level_side() or longer
     bool of_solid = false;  ///< of a border of a solid, which may be made of several surfaces in one place
-    bool keeps_opacity = true;  ///< no shader has to be asked for the opacity that hides others
-    V3f opacity{1, 1, 1};       ///< the primitive's own, Os
-    V3f color{1, 1, 1};         ///< the primitive's own, Cs
-    RayHitPlace place;          ///< with `primitive` and `at`, what dice() finds it by
-    V2f at{0, 0};               ///< within the micropolygon
+    bool keeps_opacity = true;           ///< no shader has to be asked for the opacity that hides others
+    V3f opacity{1, 1, 1};                ///< the primitive's own, Os
+    V3f color{1, 1, 1};                  ///< the primitive's own, Cs
+    RayHitPlace place;                   ///< with `primitive` and `at`, what dice() finds it by
+    V2f at{0, 0};                        ///< within the micropolygon
+    std::optional<RayFacet> facet = {};  ///< where RayFilter::facets asks for it
 };
 
 /// The geometry that rays meet, at any time of the shutter. Immutable: threads share it.

@@ -36,7 +36,7 @@ struct PlacedRay {
     /// The part of it that counts, in the form in which grids are asked: depths instead of the segment's
     /// distances.
     RangedRay ranged(const RaySegment& ray) const;
-    V3f to_camera(const V3f& P) const { return place ? place->to_camera(P, space.time) : P; }
+    V3f to_camera(const V3f& P, float time) const { return place ? place->to_camera(P, time) : P; }
 };
 
 }  // namespace trapeze

@@ -10,13 +10,16 @@ namespace trapeze {
 namespace {
 
 /// In camera space: 00, 10, 01, 11.
-std::array<V3f, 4> corners(const PlacedRay& placed, const RayGridHit& found) {
+std::array<V3f, 4> corners(const PlacedRay& placed, const RayGridHit& found, float time) {
     const MicropolygonId id = MicropolygonId::unpack(found.hit.id);
     std::array<V3f, 4> all;
     for (int k = 0; k < 4; ++k)
         all[static_cast<size_t>(k)] =
-            placed.to_camera(found.grid->vertex(id.u + (k & 1), id.v + (k >> 1), placed.space.time));
+            placed.to_camera(found.grid->vertex(id.u + (k & 1), id.v + (k >> 1), time), time);
     return all;
+}
+std::array<V3f, 4> corners(const PlacedRay& placed, const RayGridHit& found) {
+    return corners(placed, found, placed.space.time);
 }
 
 /// Grids of shared objects have one instance's colours; only shapes that bring their own have other ones than
@@ -56,6 +59,7 @@ bool RayHits::shows(const RaySegment& ray, const PlacedRay& placed, const RayGri
     const Primitive& own = dicer_.context().scene->primitives[number];
     if (own.solid >= 0) return true;  // the whole solid has sides
     const Attributes& attributes = dicer_.attributes(number);
+    if (ray.only && ray.only->primitive.value_or(number) != number) return false;
     if (ray.only && !ray.only->admits(attributes.rays.groups)) return false;
     if (ray.only && ray.only->with_inside && !attributes.interior) return false;
     Sides sides = ray.only ? ray.only->sides : Sides::OfAttributes;
@@ -64,6 +68,29 @@ bool RayHits::shows(const RaySegment& ray, const PlacedRay& placed, const RayGri
     if (sides == Sides::Both) return true;
     const V3f direction = ray.backwards ? -ray.direction : ray.direction;
     return from_outside(placed, direction, found) == (sides == Sides::Front);
+}
+
+/// Of a hit with these weights on the micropolygon's corners.
+RayFacet RayHits::facet(const PlacedRay& placed, const RayGridHit& found, const QuadWeights& weights,
+                        RayFilter::Facets wanted) const {
+    constexpr float kFromEdges = 1.0f / 32;
+    RayFacet facet;
+    facet.reversed = dicer_.attributes(primitive(placed, *found.grid)).reverse_orientation;
+    const size_t poses = placed.place ? placed.place->camera_from_shared.size() : 1;
+    const bool all = wanted == RayFilter::Facets::AllTimes;
+    const size_t keys = all ? std::max(poses, static_cast<size_t>(found.grid->key_count)) : 1;
+    for (size_t key = 0; key < keys; ++key)
+        facet.keys.push_back(
+            corners(placed, found,
+                    keys == 1 ? placed.space.time : static_cast<float>(key) / static_cast<float>(keys - 1)));
+    const size_t not_hit = weights.w[k10] < weights.w[k01] ? k10 : k01;
+    float sum = 0;
+    for (size_t corner = 0; corner < 4; ++corner) {
+        facet.weights[corner] = corner == not_hit ? 0 : std::max(weights.w[corner], kFromEdges);
+        sum += facet.weights[corner];
+    }
+    for (float& weight : facet.weights) weight /= sum;
+    return facet;
 }
 
 bool RayHits::counts(const RaySegment& ray, const PlacedRay& placed, const RayGridHit& found) const {
@@ -100,6 +127,8 @@ RaySurfaceHit RayHits::hit_of(const RaySegment& ray, const PlacedRay& placed, co
     if (placed.place && !brings_colors(own)) hit.color = own.attributes->color;
     hit.place.instance = placed.place, hit.place.depth = found.hit.depth, hit.place.id = found.hit.id;
     hit.at = {weights.w[k10] + weights.w[k11], weights.w[k01] + weights.w[k11]};
+    if (ray.only && ray.only->facets != RayFilter::Facets::NotTold)
+        hit.facet = facet(placed, found, weights, ray.only->facets);
     return hit;
 }
 

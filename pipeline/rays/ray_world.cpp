@@ -127,6 +127,7 @@ void RayWorld::for_each_level(std::span<const RaySegment* const> rays, const End
     for (int number = 0; number < kMostRayLevels; ++number) {
         if (!levels_[static_cast<size_t>(number)]) continue;
         numbers.clear(), parts.clear();
+        parts.reserve(rays.size());
         for (uint32_t i = 0; i < rays.size(); ++i)
             for (const LevelSpan& span : rule_.of(*rays[i])) {
                 const float end = ends(i);

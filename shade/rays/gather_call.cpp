@@ -22,6 +22,7 @@ using vm::Step;
 
 /// The category that asks for directions alone.
 constexpr std::string_view kSamplePattern = "samplepattern";
+constexpr float kQuarterTurn = 1.57079632679f;
 
 std::optional<HitOutput> hit_output(std::string_view name, int width) {
     using Of = HitOutput::Of;
@@ -52,9 +53,10 @@ void put(const Operand& out, const RayLane& lane, int width, const V3f& value) {
 
 }  // namespace
 
-GatherCall::GatherCall(const RayAsker& asker, std::vector<RayLane> lanes, Run& run, const Step& step,
-                       std::span<const Operand> operands)
+GatherCall::GatherCall(const RayAsker& asker, RayGrounds& grounds, std::vector<RayLane> lanes, Run& run,
+                       const Step& step, std::span<const Operand> operands)
     : asker_(asker),
+      grounds_(grounds),
       lanes_(std::move(lanes)),
       arguments_(run, step, operands),
       base_(run),
@@ -149,6 +151,10 @@ void GatherCall::add_rays(size_t number, int first, int count) {
     const bool is_distance = !colors_ && asked_.empty();  // which is asked of P
     ray.footprint.width = asker_.width_at(aim.P, asking);
     ray.footprint.spread = ray.segment.spread = spread_of(angle, arguments_.samples_at(lane));
+    const auto begins = [&](const LeftSurface& left) {
+        return aim.leads() ? asker_.leaving_at(aim.P, asking, arguments_.bias.at(lane), left, kind_)
+                           : std::nullopt;
+    };
     for (int s = first; s < first + count; ++s) {
         ray.segment.time = motion.time(s);
         const V3f P = aim.P + motion.way(ray.segment.time);
@@ -160,11 +166,20 @@ void GatherCall::add_rays(size_t number, int first, int count) {
         const V3f direction = angle == 0                        ? axis
                               : arguments_.uniform_distribution ? cone.uniform(sequence[s])
                                                                 : cone.by_cosine(sequence[s]);
-        ray.segment.direction = motion.turned(direction, ray.segment.time, kind_ == RayKind::Diffuse);
+        const auto turned = [&](const V3f& way) {
+            return motion.turned(way, ray.segment.time, kind_ == RayKind::Diffuse);
+        };
+        ray.segment.direction = turned(direction);
         ray.segment.min = aim.leads() ? ray.segment.left.distance(ray.segment.direction) : kInfinity;
-        ray.segment.origin = base_.origin(P, arguments_, asking, s) + ray.moved;
+        const V3f origin = base_.origin(P, arguments_, asking, s);
+        ray.segment.origin = origin + ray.moved;
         ray.medium = asker_.medium(asking, direction);
         ray.seed = asking.of_ray(s), ray.segment.number = asker_.number(asking, s);
+        if (std::optional<LeavingPoint> leaving = begins(ray.segment.left)) {
+            leaving->P += origin - P;
+            const V3f meant = angle <= kQuarterTurn ? turned(axis) : ray.segment.direction;
+            starts_.add(rays_.size(), *leaving, motion.turned_back(meant, ray.segment.time, true));
+        }
         rays_.push_back(ray);
     }
 }
@@ -180,6 +195,7 @@ Task<> GatherCall::follow() {
     const bool too_deep = asker_.is_too_deep(kind_);
     ask.shades = !too_deep && (colors_ || asked_.ask_shaders());
     ask.first_alone = !colors_;
+    starts_.settle(*service.scene, kind_, grounds_, rays_);
     answers_.assign(rays_.size() * asked_.size, 0.0f);
     for (size_t i = 0; i < rays_.size(); ++i) rays_[i].answers = answers_.data() + i * asked_.size;
     if (!colors_ && asked_.empty()) co_return walk.distance(rays_, ask);

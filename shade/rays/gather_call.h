@@ -14,8 +14,8 @@ namespace trapeze {
 /// else specular. All it refers to must outlive it.
 class GatherCall final : public vm::GatherTurns {
   public:
-    GatherCall(const RayAsker& asker, std::vector<RayLane> lanes, vm::Run& run, const vm::Step& step,
-               std::span<const vm::Operand> operands);
+    GatherCall(const RayAsker& asker, RayGrounds& grounds, std::vector<RayLane> lanes, vm::Run& run,
+               const vm::Step& step, std::span<const vm::Operand> operands);
 
     Task<bool> next(vm::Run& run, const uint32_t* live) override;
     const float* hits() const override { return hits_.data(); }
@@ -40,6 +40,7 @@ class GatherCall final : public vm::GatherTurns {
     void tell(const RayLane& lane, const WalkedRay& ray) const;
 
     const RayAsker& asker_;
+    RayGrounds& grounds_;
     const std::vector<RayLane> lanes_;
     const RayArguments arguments_;
     const SampleBase base_;
@@ -53,6 +54,7 @@ class GatherCall final : public vm::GatherTurns {
     int turn_ = 0, sent_ = 0, most_ = 0, first_sent_ = 0;
     std::vector<size_t> first_rays_;  ///< of lanes_: the ray of turn first_sent_; kNone: it sends none
     std::vector<WalkedRay> rays_;
+    RayStarts starts_;
     std::vector<float> answers_;
     std::vector<float> sent_numbers_;  ///< of all lanes_, arguments_.sent.size() each
     std::vector<float> hits_, misses_;

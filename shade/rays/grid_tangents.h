@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 #include "core/grid.h"
@@ -31,15 +30,6 @@ class GridTangents {
 
     /// Of unit length, along dPdu x dPdv; 0 where there is none.
     V3f normal() const { return u_.cross(v_).normalized(); }
-    /// Whether neither is longer or shorter than the other's by more than a quarter, nor much nearer to it.
-    bool is_about_as_long_as(const GridTangents& other) const {
-        const auto is_alike = [](float now, float before) {
-            constexpr float kMostStretch = 0.25f;
-            return std::abs(now - before) < kMostStretch * before;
-        };
-        return is_alike(u_.length(), other.u_.length()) && is_alike(v_.length(), other.v_.length()) &&
-               is_alike(u_.cross(v_).length(), other.u_.cross(other.v_).length());
-    }
 
   private:
     V3f u_, v_;

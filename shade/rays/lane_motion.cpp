@@ -58,14 +58,8 @@ V3f LaneMotion::turned_by_shape(const V3f& direction, float time, bool back) con
 
 std::optional<V3f> LaneMotion::normal(const V3f& normal, float time) const {
     if (time == 0 || !grid_) return normal;
-    if (grid_->primitive->shape_keys.size() <= 1) return turn_.normal(normal, time);
-    if (!at_open_) return {};
-    const GridTangents& now = tangents(time);
-    if (!now.is_about_as_long_as(*at_open_)) return {};
-    const float along = at_open_->normal().dot(normal);
-    constexpr float kAlike = 0.9f;
-    if (!(std::abs(along) > kAlike)) return {};
-    return along < 0 ? -now.normal() : now.normal();
+    if (grid_->primitive->shape_keys.size() > 1) return {};
+    return turn_.normal(normal, time);
 }
 
 float LaneMotion::time(int sample) const {

@@ -35,7 +35,7 @@ class LaneMotion {
     V3f turned(const V3f& direction, float time, bool diffuse) const;
     V3f turned_back(const V3f& direction, float time, bool diffuse) const;
     /// Where the surface's unit normal of shutter open leads at a time; nothing where the surface stretches
-    /// so much that it may be bent otherwise, or is too coarse a grid to tell.
+    /// so much that it may be bent otherwise, or deforms.
     std::optional<V3f> normal(const V3f& normal, float time) const;
 
   private:

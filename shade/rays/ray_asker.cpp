@@ -14,10 +14,19 @@ namespace {
 /// (hit_micropolygon.h): some have sides of nearly two. Two dicings of a displaced surface differ by more.
 constexpr float kBiasOfSide = 2, kBiasOfDisplacedSide = 3;
 
+/// Of what lies on an edge of a face: the thickness of a slab out of which it is moved (inwards_at()).
+constexpr float kInwardsOfReach = 1.0f / 1024;
+
 /// Points, and curves without normals: what rays meet of them need not be turned alike.
 bool turns_to_camera(const Primitive& primitive) {
     const Topology& topology = primitive.shape().topology;
     return std::holds_alternative<Curves>(topology) || std::holds_alternative<Points>(topology);
+}
+
+bool are_seen_by(const RayAttributes& rays, RayKind kind) {
+    return kind == RayKind::Diffuse    ? rays.diffuse
+           : kind == RayKind::Specular ? rays.specular
+                                       : rays.transmission;
 }
 
 }  // namespace
@@ -59,6 +68,29 @@ LeftSurface RayAsker::left_at(const V3f& P, const RayLane& lane, const LaneMotio
     return left;
 }
 
+std::optional<LeavingPoint> RayAsker::leaving_at(const V3f& P, const RayLane& lane, float asked,
+                                                 const LeftSurface& left, RayKind kind) const {
+    if (left.half < kInfinity || asked >= 0 || attributes_.rays.bias > 0 || !lane.grid) return {};
+    const Primitive& primitive = *lane.grid->primitive;
+    if (!are_seen_by(attributes_.rays, kind) || primitive.solid >= 0 || turns_to_camera(primitive)) return {};
+    LeavingPoint point;
+    point.normal = normal_at(P, lane);
+    if (point.normal == V3f(0, 0, 0)) return {};
+    const size_t vertex = lane.lane - lane.first_of_grid;
+    point.number = seen_.from, point.primitive = lane.grid->primitive_index, point.level = lane.level();
+    point.reach = margin_at(P, lane, asked);
+    point.rounding = rounding_at(*lane.grid, vertex);
+    // On an edge between two faces it would be on either.
+    point.P = P + inwards_at(*lane.grid, vertex, point.reach * kInwardsOfReach, lane.grid->face_sides);
+    return point;
+}
+
+bool RayAsker::knows_where_to_begin(const V3f& P, const RayLane& lane, const LaneMotion& motion, float asked,
+                                    RayKind kind) const {
+    const LeftSurface left = left_at(P, lane, motion, 0, asked);
+    return left.half < kInfinity || leaving_at(P, lane, asked, left, kind).has_value();
+}
+
 V3f RayAsker::normal_at(const V3f& P, const RayLane& lane) {
     if (!lane.grid) return V3f(0, 0, 0);
     const size_t vertex = lane.lane - lane.first_of_grid;
@@ -66,11 +98,10 @@ V3f RayAsker::normal_at(const V3f& P, const RayLane& lane) {
     return is_there ? lane.grid->Ng.at(vertex) : V3f(0, 0, 0);
 }
 
-V3f RayAsker::left_of_light_behind(const RayLane& lane, const LeftSurface& left,
-                                   const RayFilter* only) const {
+V3f RayAsker::left_of_light_behind(const RayLane& lane, bool is_met, const RayFilter* only) const {
     using Sides = RayFilter::Sides;
     const V3f all(1, 1, 1);
-    if (!(left.half < kInfinity) || !attributes_.rays.transmission) return all;
+    if (!is_met || !attributes_.rays.transmission) return all;
     if (only && !only->admits(attributes_.rays.groups)) return all;
     const Sides sides = only ? only->sides : Sides::OfAttributes;
     const bool has_both = sides == Sides::Both || (sides == Sides::OfAttributes && attributes_.sides != 1);

@@ -8,6 +8,7 @@
 
 #include "core/scene/level_of_detail.h"
 #include "core/scene/scene.h"
+#include "shade/rays/ray_starts.h"
 #include "shade/rays/ray_walk.h"
 #include "shade/rays/surface_slab.h"
 #include "shade/vm/machine.h"
@@ -63,13 +64,20 @@ class RayAsker {
     /// as above.
     LeftSurface left_at(const V3f& P, const RayLane& lane, const LaneMotion& motion, float time,
                         float asked) const;
+    /// What rays of a kind leave at P, as the shutter opens, where `left` does not tell; nothing where they
+    /// do not meet it, or where the call or the attributes say from where on hits count.
+    std::optional<LeavingPoint> leaving_at(const V3f& P, const RayLane& lane, float asked,
+                                           const LeftSurface& left, RayKind kind) const;
+    /// Whether either tells of rays of a kind at P as the shutter opens.
+    bool knows_where_to_begin(const V3f& P, const RayLane& lane, const LaneMotion& motion, float asked,
+                              RayKind kind) const;
     /// Which way the surface faces of a lane's vertex at P, as the shutter opens; 0 where P is somewhere
     /// else.
     static V3f normal_at(const V3f& P, const RayLane& lane);
     /// What is left of light that comes to the other side of a lane's own surface than is seen of it, at P:
-    /// all of it where the surface is none that `only`, or rays of transmission, meet from there, or where it
-    /// is not known to be flat.
-    V3f left_of_light_behind(const RayLane& lane, const LeftSurface& left, const RayFilter* only) const;
+    /// all of it where the surface is none that `only`, or rays of transmission, meet from there
+    /// (knows_where_to_begin()).
+    V3f left_of_light_behind(const RayLane& lane, bool is_met, const RayFilter* only) const;
     /// How far within its own grid the rays of a lane begin that is on an edge of the grid (inwards_at()).
     static V3f inwards(const RayLane& lane, const LeftSurface& left);
     /// Of rays that tell what is seen from P: on edges of the face alone, and no farther than a quarter of a

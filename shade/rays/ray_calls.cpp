@@ -73,6 +73,11 @@ struct RayCalls::Call {
     /// Who asks what a direction leads to asks it of P.
     bool is_exact() const { return step.op == Op::Trace || step.op == Op::Environment; }
     bool over_sky() const { return step.op == Op::Occlusion || step.op == Op::IndirectDiffuse; }
+    RayKind kind() const {
+        return over_sky()                                           ? RayKind::Diffuse
+               : step.op == Op::Trace || step.op == Op::Environment ? RayKind::Specular
+                                                                    : RayKind::Transmission;
+    }
     /// The half angle of the cone that a lane's rays fill.
     float angle_at(size_t lane) const {
         return over_sky() ? arguments.cone_angle_at(lane) : arguments.sample_cone_at(lane);
@@ -187,8 +192,9 @@ Task<> RayCalls::trace(Run& run, const Step& step, std::span<const Operand> oper
         size_t end = first, count = 0;
         for (; end < lanes.size() && count < most; ++end)
             count += static_cast<size_t>(call.samples_at(lanes[end].lane));
-        const LaneRays sent = co_await rays_of(call, std::span(lanes).subspan(first, end - first));
+        LaneRays sent = co_await rays_of(call, std::span(lanes).subspan(first, end - first));
         tell(call, out, std::span(lanes).subspan(first, end - first), sent, nothing);
+        asker_.service().scratch->give_back(std::move(sent.rays));
         first = end;
     }
 }
@@ -222,16 +228,20 @@ std::unique_ptr<vm::GatherTurns> RayCalls::gather(Run& run, const Step& step,
                                                   std::span<const Operand> operands) {
     std::vector<RayLane> lanes;
     if (run.context().batch) lanes = lanes_of(run, step, false);
-    return std::make_unique<GatherCall>(asker_, std::move(lanes), run, step, operands);
+    return std::make_unique<GatherCall>(asker_, grounds_, std::move(lanes), run, step, operands);
 }
 
 /// Sends the rays of some lanes. What is behind them counts as far as they are open.
-Task<RayCalls::LaneRays> RayCalls::rays_of(const Call& call, std::span<const RayLane> lanes) const {
+Task<RayCalls::LaneRays> RayCalls::rays_of(const Call& call, std::span<const RayLane> lanes) {
     LaneRays sent;
+    sent.rays = asker_.service().scratch->take();
     for (const RayLane& lane : lanes) {
         add_rays(call, lane, sent);
         sent.ends.push_back(sent.rays.size());
     }
+    sent.starts.settle(*asker_.service().scene, call.kind(), grounds_, sent.rays);
+    sent.arrival_starts.settle(*asker_.service().scene, call.kind(), grounds_, sent.arrivals);
+    end_at_arrivals(sent);
     sent.followed = co_await follow(call, sent.rays);
     co_await dim_by_own_surface(call, sent);
     const RayArguments& arguments = call.arguments;
@@ -287,12 +297,33 @@ void RayCalls::add_arrival(const Call& call, const RayLane& asking, const RayAim
     segment.left = asker_.left_at(end, asking, motion, aim.time, bias);
     segment.min = segment.left.distance(segment.direction);
     segment.max = std::min(asker_.margin_at(end, asking, bias), aim.length);
-    if (!(segment.min < segment.max)) return;
+    const std::optional<LeavingPoint> leaving =
+        asker_.leaving_at(call.arguments.towards_at(asking.lane), asking, bias, segment.left, call.kind());
+    if (!leaving && !(segment.min < segment.max)) return;
+    if (leaving)
+        sent.arrival_starts.add(sent.arrivals.size(), *leaving,
+                                motion.turned_back(segment.direction, aim.time, true));
     near.moved = motion.turned(RayAsker::inwards(asking, segment.left), aim.time, true);
     segment.origin = end + near.moved;
     near.seed = asking.of_ray(-1);
     sent.arriving.push_back(sent.rays.size() - 1);
     sent.arrivals.push_back(near);
+}
+
+/// Rays end where the way from their surface back to them begins: in one line with it, no gap is between
+/// both.
+void RayCalls::end_at_arrivals(LaneRays& sent) {
+    for (size_t i = 0; i < sent.arrivals.size(); ++i) {
+        WalkedRay& whole = sent.rays[sent.arriving[i]];
+        WalkedRay& near = sent.arrivals[i];
+        if (near.moved == V3f(0, 0, 0)) continue;
+        const RayAim aim(whole.segment.origin, near.segment.origin - whole.segment.origin,
+                         whole.segment.time);
+        if (!aim.leads()) continue;
+        whole.segment.direction = aim.direction, near.segment.direction = -aim.direction;
+        whole.end = aim.length;
+        whole.segment.max = aim.length - near.segment.max;
+    }
 }
 
 /// Takes away what does not arrive though nothing far from the surface is in its way.
@@ -309,7 +340,7 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, LaneRays& sent)
     const size_t lane = asking.lane;
     const std::span<const float> times = call.run.context().ray_times;
     const LaneMotion motion(asker_, asking, times.empty() ? std::nullopt : std::optional(times[lane]));
-    const float angle = call.angle_at(lane);
+    const float angle = call.angle_at(lane), bias = arguments.bias.at(lane);
     WalkedRay ray;
     ray.segment.only = arguments.only();
     ray.segment.level = asking.level();
@@ -317,7 +348,7 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, LaneRays& sent)
     if (!aim.leads()) return;
     Cone cone(aim.direction, angle);
     const auto look_along = [&] {
-        ray.segment.left = asker_.left_at(aim.P, asking, motion, aim.time, arguments.bias.at(lane));
+        ray.segment.left = asker_.left_at(aim.P, asking, motion, aim.time, bias);
         const V3f inwards = call.is_distance() ? V3f(0, 0, 0)
                             : call.is_exact()  ? RayAsker::inwards_of_face(asking, ray.segment.left)
                                                : RayAsker::inwards(asking, ray.segment.left);
@@ -326,8 +357,7 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, LaneRays& sent)
         if (call.ends_at_point()) {
             const V3f end = aim.P + aim.direction * aim.length;
             ray.end = std::min(ray.end, aim.length);
-            ray.segment.max = std::min(ray.segment.max,
-                                       aim.length - asker_.margin_at(end, asking, arguments.bias.at(lane)));
+            ray.segment.max = std::min(ray.segment.max, aim.length - asker_.margin_at(end, asking, bias));
         }
         ray.segment.time = aim.time;
     };
@@ -339,15 +369,16 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, LaneRays& sent)
     const SampleBase base(call.run);
     const bool ends_here = call.between_points() && !call.begins_here(lane, motion);
     const bool arrives = ends_here && asker_.knows_media(asking);
+    const V3f at_surface = ends_here ? arguments.towards_at(lane) : arguments.from_at(lane);
     // Samples of area lights are chosen for how the surface lies then.
     const bool may_turn_away = (call.ends_at_point() || call.step.op == Op::Shadow) && times.empty();
-    const V3f outside = may_turn_away
-                            ? asker_.normal_at(ends_here ? arguments.towards_at(lane) : aim.P, asking)
-                            : V3f(0, 0, 0);
+    const V3f outside = may_turn_away ? asker_.normal_at(at_surface, asking) : V3f(0, 0, 0);
     const float above = outside.dot(aim.direction);
-    const LeftSurface at_surface =
-        ends_here ? asker_.left_at(arguments.towards_at(lane), asking, motion, 0, arguments.bias.at(lane))
-                  : ray.segment.left;
+    const bool knows_surface =
+        outside != V3f(0, 0, 0) && asker_.knows_where_to_begin(at_surface, asking, motion, bias, call.kind());
+    const auto begins = [&](const LeftSurface& left) {
+        return ends_here ? std::nullopt : asker_.leaving_at(at_surface, asking, bias, left, call.kind());
+    };
     const bool by_cosine = call.over_sky() && !arguments.uniform_distribution;
     for (int s = 0; s < samples; ++s) {
         if (const float time = motion.time(s); time != aim.time) {
@@ -360,16 +391,22 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, LaneRays& sent)
                                 : by_cosine ? cone.by_cosine(sequence[s])
                                             : cone.uniform(sequence[s]);
         ray.segment.min = ray.segment.left.distance(ray.segment.direction);
-        ray.segment.origin = base.origin(aim.P, arguments, asking, s) + ray.moved;
+        const V3f origin = base.origin(aim.P, arguments, asking, s);
+        ray.segment.origin = origin + ray.moved;
         const V3f way = motion.turned_back(ray.segment.direction, ray.segment.time, call.over_sky());
         (arrives ? ray.end_medium : ray.medium) = asker_.medium(asking, arrives ? -way : way);
         ray.seed = asking.of_ray(s), ray.segment.number = asker_.number(asking, s);
+        if (std::optional<LeavingPoint> leaving = begins(ray.segment.left)) {
+            leaving->P += origin - aim.P;
+            const V3f& meant = angle <= kTurn / 4 ? aim.direction : ray.segment.direction;
+            sent.starts.add(sent.rays.size(), *leaving, motion.turned_back(meant, aim.time, true));
+        }
         sent.rays.push_back(ray);
         // A surface that has turned since the shutter opened, so that light comes to its other side.
         const V3f seen = motion.turned_back(aim.direction, aim.time, true);
         if (aim.time > 0 && above * outside.dot(seen) < 0)
-            sent.turned_away.emplace_back(sent.rays.size() - 1,
-                                          asker_.left_of_light_behind(asking, at_surface, ray.segment.only));
+            sent.turned_away.emplace_back(
+                sent.rays.size() - 1, asker_.left_of_light_behind(asking, knows_surface, ray.segment.only));
         if (ends_here && angle == 0 && ray.end >= aim.length) add_arrival(call, asking, aim, motion, sent);
     }
 }
@@ -381,9 +418,7 @@ Task<bool> RayCalls::follow(const Call& call, std::span<WalkedRay> rays) const {
     RayWalk walk(*service.scene, service.shade, *service.volumes, *service.scratch, *service.stats);
     RayAsk ask;
     const Op op = call.step.op;
-    ask.kind = call.over_sky()                            ? RayKind::Diffuse
-               : op == Op::Trace || op == Op::Environment ? RayKind::Specular
-                                                          : RayKind::Transmission;
+    ask.kind = call.kind();
     ask.depths = asker_.depths_behind(ask.kind);
     ask.label = arguments.label;
     ask.hit_mode = arguments.hit_mode;

@@ -42,16 +42,18 @@ class RayCalls : public vm::Rays {
         /// The ends of rays that come to the surface which asks, from there; and the numbers of those rays.
         std::vector<WalkedRay> arrivals;
         std::vector<size_t> arriving;
+        RayStarts starts, arrival_starts;  ///< of rays and of arrivals
     };
 
     std::vector<RayLane> lanes_of(vm::Run& run, const vm::Step& step, bool uniform);
     float bend_of(const ShadingGrid* grid);
-    Task<LaneRays> rays_of(const Call& call, std::span<const RayLane> lanes) const;
+    Task<LaneRays> rays_of(const Call& call, std::span<const RayLane> lanes);
     static void tell(const Call& call, const vm::Operand& out, std::span<const RayLane> lanes,
                      const LaneRays& sent, const V3f& nothing);
     void add_rays(const Call& call, const RayLane& lane, LaneRays& sent) const;
     void add_arrival(const Call& call, const RayLane& lane, const RayAim& aim, const LaneMotion& motion,
                      LaneRays& sent) const;
+    static void end_at_arrivals(LaneRays& sent);
     Task<> dim_by_own_surface(const Call& call, LaneRays& sent) const;
     RayFootprint footprint_of(const Call& call, const RayLane& asking, const RayAim& aim,
                               const LaneMotion& motion) const;
@@ -59,6 +61,7 @@ class RayCalls : public vm::Rays {
     void look_at_sky(const Call& call, const vm::Operand& out, std::span<const RayLane> lanes) const;
 
     RayAsker asker_;
+    RayGrounds grounds_;
     /// How often a call has been made for each lane: calls in loops take other random numbers each time.
     std::unordered_map<const vm::Step*, std::vector<uint32_t>> calls_;
     std::unordered_map<const ShadingGrid*, float> bends_;

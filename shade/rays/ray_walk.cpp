@@ -11,7 +11,7 @@ namespace {
 
 /// Hits that are shaded together; and rays in memory at once, about.
 constexpr size_t kShadedTogether = 256;
-constexpr size_t kRaysAtOnce = 16384;
+constexpr size_t kRaysAtOnce = 4096;
 /// The most surfaces that a ray looks through: a bound on scenes where next to nothing stops it. Otherwise it
 /// goes on as long as light is left. Behind the last one it ends as where nothing is hit: what has been seen,
 /// and what is left of the light, stay as they are.
@@ -86,6 +86,7 @@ Task<> RayWalk::transmission(std::span<WalkedRay> rays, const RayAsk& ask, bool 
     std::vector<std::optional<bool>> blocked(rays.size());
     if (!walks) scene_.blocked(segments_of(rays), ask.kind, blocked);
     for (size_t i = 0; i < rays.size(); ++i) {
+        if (rays[i].first) blocked[i].reset();
         if (!blocked[i]) open.push_back(&rays[i]);
         if (blocked[i].value_or(false)) rays[i].through = V3f(0, 0, 0);
         if (!blocked[i].value_or(true) && ends_in_media(rays[i], ask)) free.push_back(&rays[i]);
@@ -98,7 +99,8 @@ void RayWalk::distance(std::span<WalkedRay> rays, const RayAsk& ask) {
     std::vector<std::optional<RaySurfaceHit>> hits(rays.size());
     scene_.closest(segments_of(rays), ask.kind, hits);
     for (size_t i = 0; i < rays.size(); ++i)
-        if (hits[i]) rays[i].distance = hits[i]->distance;
+        if (hits[i] || rays[i].first)
+            rays[i].distance = rays[i].first ? rays[i].first->distance : hits[i]->distance;
     count_of(ask.kind, stats_) += rays.size();
 }
 
@@ -117,6 +119,7 @@ Task<> RayWalk::walk(std::span<WalkedRay* const> rays, std::vector<WalkedRay*> f
         hits.resize(going.size());
         scene_.closest(segments, ask.kind, hits);
         for (size_t i = 0; i < going.size(); ++i) {
+            if (layer == 0 && going[i]->first) hits[i] = *going[i]->first;
             if (!hits[i] && ends_in_media(*going[i], ask)) free.push_back(going[i]);
             if (!hits[i]) continue;
             going[i]->distance = std::min(going[i]->distance, hits[i]->distance);

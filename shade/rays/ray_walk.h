@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/scene/ray_scene.h"
@@ -36,8 +37,9 @@ struct WalkedRay {
     RayMedium end_medium;   ///< what it comes to its end through, if no surface on the way says so
     V3f seen{0, 0, 0};      ///< colour, as radiance() leaves it
     V3f through{1, 1, 1};   ///< the part of the light from behind that arrives
-    float distance = kInfinity;   ///< of the first hit
-    float* answers = nullptr;     ///< where the first hit's answers to RayAsk::outputs go
+    float distance = kInfinity;            ///< of the first hit
+    float* answers = nullptr;              ///< where the first hit's answers to RayAsk::outputs go
+    const RaySurfaceHit* first = nullptr;  ///< what it meets where it begins, if that is known already
     const float* sent = nullptr;  ///< numbers for RayAsk::sent, of one variable's planes after the other's
 
     bool hits() const { return distance < kInfinity; }
@@ -91,9 +93,23 @@ struct RayAsk {
 /// Rays that should be traced together, at least.
 size_t rays_at_once(const RayScene& scene);
 
-/// A thread's memory: grids of hits.
+/// A thread's memory: grids of hits, and arrays of rays, which the system would take back after each call.
 struct RayWalkScratch {
     std::deque<ShadingGrid> grids;
+    std::vector<std::vector<WalkedRay>> spare;
+
+    /// Empty, with room for as many as it had.
+    std::vector<WalkedRay> take() {
+        if (spare.empty()) return {};
+        std::vector<WalkedRay> rays = std::move(spare.back());
+        spare.pop_back();
+        return rays;
+    }
+    void give_back(std::vector<WalkedRay> rays) {
+        constexpr size_t kMostKept = 1 << 14;
+        rays.clear();
+        if (rays.capacity() <= kMostKept) spare.push_back(std::move(rays));
+    }
 };
 
 /// Sends rays through a scene. All it refers to must outlive it.

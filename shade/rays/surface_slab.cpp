@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "core/scene/scene.h"
-#include "shade/rays/grid_tangents.h"
 
 namespace trapeze {
 namespace {
@@ -17,9 +16,6 @@ constexpr float kRoundings = 8;
 /// Micropolygons that rays meet have sides of nearly twice what is wished, and diagonals of 2^1/2 times that:
 /// within r = 2^1.5 sides of a vertex a surface of curvature k rises by k r^2 / 2.
 constexpr float kBendOfSides = 4;
-/// The same where normals are GridTangents', off by as much as the surface turns along a side: the plane is
-/// then 2^1.5 k s^2 away at that r.
-constexpr float kBendOfTangents = 7;
 /// Shorter edges tell of rounding alone; in roundings.
 constexpr float kShortestEdge = 16;
 
@@ -33,33 +29,6 @@ float bend_along(const Triples& P, const Triples& Ng, size_t i, size_t j, float 
     const float rise = std::max(std::abs(way.dot(from)), std::abs(way.dot(to))) - rounding;
     const float turn = std::max((to - from).length(), 2 * rise / length);
     return kBendOfSides * side * side * turn / std::min(length, side);
-}
-
-/// bend_of() the vertices as they are at one key.
-float bend_at_key(const ShadingGrid& grid, size_t key, const Triples& Ng, const RayScene& scene,
-                  float pixels) {
-    const Triples& P = grid.P[key];
-    const size_t row = size_t{grid.shape.nu} + 1;
-    float most = 0;
-    for (size_t v = 0; v <= grid.shape.nv; ++v)
-        for (size_t u = 0; u < row; ++u) {
-            const size_t at = v * row + u;
-            const float side = pixels * scene.spacing(P.at(at)), rounding = rounding_at(grid, at);
-            const auto look = [&](size_t i, size_t j) {
-                most = std::max(most, bend_along(P, Ng, i, j, side, rounding));
-            };
-            const bool across = u + 1 < row, along = v < grid.shape.nv;
-            if (across) look(at, at + 1);
-            if (along) look(at, at + row);
-            if (!across || !along) continue;
-            look(at, at + row + 1);
-            look(at + 1, at + row);
-        }
-    return most;
-}
-
-bool deforms(const ShadingGrid& grid) {
-    return grid.primitive->shape_keys.size() > 1 && grid.P.size() > 1;
 }
 
 /// Of the slab's half thickness, so that rays leave their own slab before they come to that of another face,
@@ -78,18 +47,23 @@ float rounding_at(const ShadingGrid& grid, size_t vertex) {
 }
 
 float bend_of(const ShadingGrid& grid, const RayScene& scene, float pixels) {
-    float most = bend_at_key(grid, 0, grid.Ng, scene, pixels);
-    if (!deforms(grid) || !GridTangents::tell_of(grid.shape)) return most;
-    Triples normals;
-    normals.resize(grid.vertex_count());
-    for (size_t key = 0; key < grid.P.size(); ++key) {
-        for (size_t i = 0; i < grid.vertex_count(); ++i)
-            normals.set(i, GridTangents(grid.shape, i, [&](size_t vertex) {
-                               return grid.P[key].at(vertex);
-                           }).normal());
-        most =
-            std::max(most, kBendOfTangents / kBendOfSides * bend_at_key(grid, key, normals, scene, pixels));
-    }
+    const Triples& P = grid.P.front();
+    const size_t row = size_t{grid.shape.nu} + 1;
+    float most = 0;
+    for (size_t v = 0; v <= grid.shape.nv; ++v)
+        for (size_t u = 0; u < row; ++u) {
+            const size_t at = v * row + u;
+            const float side = pixels * scene.spacing(P.at(at)), rounding = rounding_at(grid, at);
+            const auto look = [&](size_t i, size_t j) {
+                most = std::max(most, bend_along(P, grid.Ng, i, j, side, rounding));
+            };
+            const bool across = u + 1 < row, along = v < grid.shape.nv;
+            if (across) look(at, at + 1);
+            if (along) look(at, at + row);
+            if (!across || !along) continue;
+            look(at, at + row + 1);
+            look(at + 1, at + row);
+        }
     return most;
 }
 

@@ -195,8 +195,8 @@ class EveryMicropolygon {
         V3d at[4];
         bool is_left = hit.depth >= ray.left.most * placed.scale;
         for (int k = 0; k < 4; ++k) {
-            const V3f P =
-                placed.to_camera(met.grid.vertex(met.u + (k & 1), met.v + (k >> 1), placed.space.time));
+            const float time = placed.space.time;
+            const V3f P = placed.to_camera(met.grid.vertex(met.u + (k & 1), met.v + (k >> 1), time), time);
             is_left |= ray.left.is_left(P - ray.origin, ray.direction);
             at[k] = V3d(P);
         }

@@ -2,7 +2,9 @@
 /// in, also while they move.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "tests/program_harness.h"
 #include "tests/scene_harness.h"
@@ -40,8 +42,9 @@ std::string turning_box() {
 double mean_of_room(const std::string& shaders, const std::string& before, const std::string& camera = "",
                     const std::string& room = box(M44f())) {
     const WorkFolder folder;
-    const size_t light = shaders.find("light l(");
-    folder.write("s.sl", shaders.substr(0, light));
+    const size_t light = shaders.find("light l("), bumps = shaders.find("displacement bumps(");
+    folder.write("s.sl", shaders.substr(0, std::min(light, bumps)));
+    if (bumps != shaders.npos) folder.write("bumps.sl", shaders.substr(bumps, light - bumps));
     if (light != shaders.npos) folder.write("l.sl", shaders.substr(light));
     folder.write(
         "a.rib",
@@ -84,6 +87,60 @@ TEST(Rooms, LightsOutsideDoNotShineIn) {
             EXPECT_LT(mean_of_room(source, motion + lights), 4e-3) << ends << ' ' << motion;
         for (const std::string& room : {leaning_box(), turning_box()})
             EXPECT_LT(mean_of_room(source, lights, "", room), 4e-3) << ends << ' ' << room;
+    }
+}
+
+/// Closed walls with bumps of up to .1, as rough as their pixels: a sphere, and a box with creases that may
+/// deform.
+std::string bumpy_ball(double bumps) {
+    return "Displacement \"bumps\" \"bumps\" " + std::to_string(bumps) + " Sphere 2 -2 2 360 ";
+}
+std::string bumpy_mesh(const std::string& corners) {
+    return "SubdivisionMesh \"catmull-clark\" [4 4 4 4 4 4] [0 1 3 2 5 4 6 7 1 0 4 5 2 3 7 6 0 2 6 4 3 1 5 7] "
+           "[\"crease\" \"crease\" \"corner\"] [5 1 3 1 1 1] [0 1 3 2 0 5 7 6 4] [2.5 1.2 2] \"P\" [" +
+           corners + "] ";
+}
+std::string displaced_room(const std::string& room) {
+    return "Attribute \"trace\" \"int displacements\" 1 Attribute \"displacementbound\" \"sphere\" [.2] " +
+           room;
+}
+std::vector<std::string> displaced_rooms() {
+    const std::string mesh = bumpy_mesh(
+        "-2.5 -2.5 -2.5 2.5 -2.5 -2.5 -2.5 2.5 -2.5 2.5 2.5 -2.5 -2.5 -2.5 2.5 2.5 -2.5 2.5 -2.5 2.5 2.5 2.5 2.5 2.5");
+    const std::string other = bumpy_mesh(
+        "-2.2 -2.7 -2.5 2.9 -2.5 -2.5 -2.5 2.5 -2.5 2.5 2.9 -2.5 -2.5 -2.5 2.9 2.5 -2.5 2.2 -2.2 2.5 2.9 2.5 2.5 2.5");
+    std::vector<std::string> rooms;
+    for (const double bumps : {0, 8}) rooms.push_back(displaced_room(bumpy_ball(bumps)));
+    rooms.push_back(displaced_room("Displacement \"bumps\" " + mesh));
+    rooms.push_back(
+        displaced_room("Displacement \"bumps\" MotionBegin [0 1] " + mesh + other + "MotionEnd "));
+    rooms.push_back("MotionBegin [0 1] " + mesh + other + "MotionEnd ");
+    return rooms;
+}
+const std::string kBumps =
+    "\ndisplacement bumps(float bumps = 4;) {"
+    "  P += .2 * (noise(bumps * transform(\"object\", P)) - .5) * normalize(N); N = calculatenormal(P); }";
+
+/// Rays begin on what they meet: none of a million is lost.
+TEST(Rooms, DisplacedWallsSeeNothingButWalls) {
+    const std::string source =
+        "surface s() { normal n = faceforward(normalize(N), I); Ci = 1 - occlusion(P, n, 16); Oi = 1; }" +
+        kBumps;
+    for (const std::string& room : displaced_rooms())
+        for (const std::string& motion : {kStands, kRoomTurns})
+            EXPECT_EQ(mean_of_room(source, motion, kStands, room), 0) << motion << room;
+}
+
+TEST(Rooms, LightsOutsideDoNotShineThroughDisplacedWalls) {
+    const std::string lights =
+        "LightSource \"l\" 1 \"from\" [0 0 9] LightSource \"l\" 2 \"from\" [9 4 3] LightSource \"l\" 3 \"from\" [-7 -7 2] ";
+    for (const std::string ends : {"Ps, from", "from, Ps"}) {
+        const std::string source =
+            "surface s() { normal n = faceforward(normalize(N), I); Ci = 0; Oi = 1; illuminance(P, n, PI / 2) Ci += Cl; }" +
+            kBumps + "\nlight l(point from = 0;) { illuminate(from) Cl = transmission(" + ends + "); }";
+        for (const std::string& room : displaced_rooms())
+            for (const std::string& motion : {kStands, kRoomTurns})
+                EXPECT_EQ(mean_of_room(source, motion + lights, kStands, room), 0) << ends << motion << room;
     }
 }
 
