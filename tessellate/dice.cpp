@@ -30,13 +30,8 @@ class Dicer {
     /// positions, because the same point evaluated on two faces differs in its last bits.
     void run(DiceFor wanted) {
         prepare_grid();
-        // Borders of pieces that are displaced are kept whatever they join.
-        const bool alone = subpatch_.alone && !context_.displaced;
-        if (!alone) find_border();
-        place_vertices();
-        if (!all_in_place_)
-            snap_border_parameters(context_.edges, subpatch_, sides_, points(), border(), context_.displaced,
-                                   scratch_.uv);
+        const bool alone = is_alone();
+        find_parameters();
         if (wanted == DiceFor::Hits && !context_.displaced) {
             evaluate_places();
             if (!alone) set_border_positions();
@@ -50,6 +45,29 @@ class Dicer {
         if (context_.displaced) make_shared_border(context_, points(), border(), grid_, scratch_);
     }
 
+    /// The face's parameters where the grid has a place in its unit square, which is within one of a
+    /// micropolygon's two triangles (core/hit_micropolygon.h).
+    V2f parameters_at(const V2f& at) {
+        std::array<int, 2> first;
+        V2f within;
+        const std::array<int, 2> segments{shape_.nu, shape_.nv};
+        bool is_on_border = false;
+        for (int axis = 0; axis < 2; ++axis) {
+            const float place = std::clamp(at[axis], 0.0f, 1.0f) * static_cast<float>(segments[axis]);
+            first[axis] = std::min(static_cast<int>(place), segments[axis] - 1);
+            within[axis] = place - static_cast<float>(first[axis]);
+            is_on_border |= first[axis] == 0 || first[axis] == segments[axis] - 1;
+        }
+        if (!is_on_border || is_alone()) return subpatch_.lo + (subpatch_.hi - subpatch_.lo) * at;
+        find_parameters();
+        const auto of = [&](int i, int j) {
+            return scratch_.uv[shape_.row_index(first[0] + i, first[1] + j)];
+        };
+        const float u = within.x, v = within.y;
+        return of(0, 0) * (1 - std::max(u, v)) + of(1, 1) * std::min(u, v) +
+               (u >= v ? of(1, 0) * (u - v) : of(0, 1) * (v - u));
+    }
+
     /// As run(), of a piece that shares no border with anything.
     void run_alone() {
         prepare_grid();
@@ -61,6 +79,18 @@ class Dicer {
     }
 
   private:
+    /// Borders of pieces that are displaced are kept whatever they join.
+    bool is_alone() const { return subpatch_.alone && !context_.displaced; }
+
+    /// Of all vertices.
+    void find_parameters() {
+        if (!is_alone()) find_border();
+        place_vertices();
+        if (!all_in_place_)
+            snap_border_parameters(context_.edges, subpatch_, sides_, points(), border(), context_.displaced,
+                                   scratch_.uv);
+    }
+
     /// Which of the subpatch's sides are the face's.
     uint8_t sides_of_face() const {
         const auto bit = [](bool is_on_it, uint8_t side) { return is_on_it ? side : uint8_t{0}; };
@@ -306,18 +336,18 @@ void dice_subpatch(const DiceContext& context, const Subpatch& subpatch, Shading
 /// subpatch.
 int dice_point(const DiceContext& context, const Subpatch& subpatch, const V2f& at, ShadingGrid& grid,
                DiceScratch::State& scratch) {
+    const V2f place = Dicer(context, subpatch, grid, scratch).parameters_at(at);
     Subpatch piece = subpatch;
     piece.shape = {1, 1};
     int vertex = 0;
     const std::array<int, 2> segments{subpatch.shape.nu, subpatch.shape.nv};
     for (int axis = 0; axis < 2; ++axis) {
-        const float side = 1.0f / static_cast<float>(segments[axis]), from = std::clamp(at[axis], 0.0f, 1.0f);
-        const bool is_high = from + side > 1;  // then the other vertex is before it
-        const auto place = [&](float share) {
-            return subpatch.lo[axis] + (subpatch.hi[axis] - subpatch.lo[axis]) * share;
-        };
-        piece.lo[axis] = place(is_high ? std::max(from - side, 0.0f) : from);
-        piece.hi[axis] = place(is_high ? from : from + side);
+        const float lo = subpatch.lo[axis], hi = subpatch.hi[axis];
+        const float side = (hi - lo) / static_cast<float>(segments[axis]);
+        const float from = std::clamp(place[axis], lo, hi);
+        const bool is_high = from + side > hi;  // then the other vertex is before it
+        piece.lo[axis] = is_high ? std::max(from - side, lo) : from;
+        piece.hi[axis] = is_high ? from : from + side;
         if (is_high) vertex += axis == 0 ? 1 : 2;
     }
     Dicer(context, piece, grid, scratch).run_alone();
