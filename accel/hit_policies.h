@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -28,6 +29,27 @@ struct ClosestHit {
         if (!in_front(hit, best) || in_front(hit, from)) return;
         best = hit;
         ray.t_max = hit.depth;
+    }
+};
+
+/// The nearest few hits that are not in front of one, in their order, as far as the first opaque one, which
+/// is included. What is cut off is behind the last of them.
+struct NearestHits {
+    static constexpr size_t kMost = 8;
+
+    Hit from = kFirstHit;
+    std::array<Hit, kMost> hits{};
+    size_t count = 0;
+    bool is_cut = false;  ///< else there are no others in the range
+
+    void consider(const Hit& hit, bool opaque, TraceRay& ray) {
+        if (in_front(hit, from) || (is_cut && !in_front(hit, hits[count - 1]))) return;
+        size_t place = count < kMost ? count++ : kMost - 1;
+        for (; place > 0 && in_front(hit, hits[place - 1]); --place) hits[place] = hits[place - 1];
+        hits[place] = hit;
+        if (opaque) count = place + 1;
+        is_cut = is_cut || opaque || count == kMost;
+        if (is_cut) ray.t_max = hits[count - 1].depth;
     }
 };
 

@@ -14,6 +14,7 @@ using V2i = Imath::V2i;
 using V2f = Imath::V2f;
 using V3f = Imath::V3f;
 using V3d = Imath::V3d;
+using M33f = Imath::M33f;
 using M44f = Imath::M44f;
 using M44d = Imath::M44d;
 using Box2i = Imath::Box2i;  ///< inclusive on both ends, as OpenEXR's windows

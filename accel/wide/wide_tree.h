@@ -136,6 +136,9 @@ class WideTree final : public RayQuery {
     /// closest() among the hits that are not in front of another one: that which follows a hit is found from
     /// {its depth, its id + 1} on, with a range that begins at its depth.
     std::optional<Hit> closest_from(const SpaceRay& ray, DepthRange range, const Hit& from) const;
+    /// Adds to `hits`, which has none so far, what it wants of the range: what closest_from() finds one by
+    /// one.
+    void nearest(const SpaceRay& ray, DepthRange range, NearestHits& hits) const;
     /// In one go what any() and, where grids are not all opaque, closest() would be asked for. Whether hits
     /// nearer than `near` count is not sure: all of these are Layers.
     InTheWay in_the_way(const SpaceRay& ray, DepthRange range,

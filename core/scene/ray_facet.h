@@ -1,7 +1,9 @@
 /// The micropolygon that a ray has met, for who begins rays on it.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -18,6 +20,17 @@ struct FacetTriangle {
 
     FacetTriangle(const std::array<V3f, 3>& at, bool reversed) : corners(at) {
         normal = (at[1] - at[0]).cross(at[2] - at[0]).normalized() * (reversed ? -1.0f : 1.0f);
+    }
+
+    /// Of a point near it on its corners; the least is below 0 where it lies beside it. Nothing where it has
+    /// no area.
+    std::optional<std::array<float, 3>> weights_at(const V3f& P) const {
+        const V3f u = corners[1] - corners[0], v = corners[2] - corners[0], across = u.cross(v);
+        const float area = across.length2();
+        if (!(area > 0)) return {};
+        const V3f way = P - corners[0];
+        const float a = way.cross(v).dot(across) / area, b = u.cross(way).dot(across) / area;
+        return std::array<float, 3>{1 - a - b, a, b};
     }
 
     /// Whether the way from a point along a direction crosses it, ahead of the point.
@@ -53,6 +66,29 @@ struct RayFacet {
         FacetPose pose{hits_lower ? lower : upper, hits_lower ? upper : lower, V3f(0, 0, 0)};
         for (size_t i = 0; i < 4; ++i) pose.inner += weights[i] * c[i];
         return pose;
+    }
+
+    /// Sets the weights by a point near the micropolygon, as it is at a time: on the triangle that holds it,
+    /// or that it is nearest to.
+    void set_inner(const V3f& P, float time) {
+        constexpr float kFromEdges = 1.0f / 32;
+        const Corners c = corners_at(time);
+        const std::array<size_t, 3> lower{0, 1, 3}, upper{0, 3, 2};
+        const auto of = [&](const std::array<size_t, 3>& at) {
+            return FacetTriangle({c[at[0]], c[at[1]], c[at[2]]}, reversed).weights_at(P);
+        };
+        const auto in_lower = of(lower), in_upper = of(upper);
+        const auto least = [](const std::optional<std::array<float, 3>>& w) {
+            return w ? std::min({(*w)[0], (*w)[1], (*w)[2]}) : -std::numeric_limits<float>::infinity();
+        };
+        const bool is_lower = least(in_lower) >= least(in_upper);
+        const std::array<size_t, 3>& at = is_lower ? lower : upper;
+        const std::array<float, 3> on =
+            (is_lower ? in_lower : in_upper).value_or(std::array<float, 3>{1, 1, 1});
+        weights.fill(0);
+        float sum = 0;
+        for (size_t i = 0; i < 3; ++i) sum += weights[at[i]] = std::max(on[i], kFromEdges);
+        for (float& weight : weights) weight /= sum;
     }
 
   private:

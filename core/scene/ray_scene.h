@@ -8,12 +8,14 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/math.h"
+#include "core/scene/ray_ahead.h"
 #include "core/scene/ray_facet.h"
 #include "core/scene/ray_groups.h"
 #include "core/scene/scene.h"
@@ -129,6 +131,7 @@ struct RaySegment {
     bool backwards = false;  ///< stands for light that goes the other way: what faces that way faces the ray
     LeftSurface left;
     PassedSurfaces passed;
+    RayAhead* ahead = nullptr;        ///< what RayScene::closest() has found behind its last answers
     const RayFilter* only = nullptr;  ///< hits that count; null: all that the attributes let be seen
 };
 
@@ -159,6 +162,8 @@ class RayScene {
     /// Where geometry is made as rays come by it is made for all of them at once.
     virtual void closest(std::span<const RaySegment* const> rays, RayKind kind,
                          std::span<std::optional<RaySurfaceHit>> hits) const = 0;
+    /// For RaySegment::ahead of a ray that goes on behind several surfaces; null: nothing is gained.
+    virtual std::unique_ptr<RayAhead> look_ahead() const { return nullptr; }
     /// Whether something opaque is in the way of each; nothing where that cannot be told without its
     /// opacity.
     virtual void blocked(std::span<const RaySegment* const> rays, RayKind kind,

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <vector>
 
+#include "pipeline/rays/hits_ahead.h"
+
 namespace trapeze {
 namespace {
 
@@ -30,7 +32,13 @@ RaySurfaceHit hit_of(const RayGrids& grids, const RayHits& hits, const RaySegmen
 std::optional<RaySurfaceHit> closest_in(const RayGrids& grids, const RayHits& hits, const RaySegment& ray,
                                         const PlacedRay& placed) {
     RangedRay asked = asking(grids, ray, placed);
-    while (const std::optional<RayGridHit> found = grids.closest(asked)) {
+    const RayHitPlace& last = ray.passed.last();
+    const bool looks_ahead = ray.ahead && last.grids == &grids && last.instance == placed.place;
+    const auto closest = [&] {
+        return looks_ahead ? static_cast<HitsAhead*>(ray.ahead)->closest(grids, placed.place, asked)
+                           : grids.closest(asked);
+    };
+    while (const std::optional<RayGridHit> found = closest()) {
         if (hits.counts(ray, placed, *found)) return hit_of(grids, hits, ray, placed, *found);
         asked.pass(found->hit);
     }

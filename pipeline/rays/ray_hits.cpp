@@ -56,10 +56,10 @@ bool RayHits::shows(const RaySegment& ray, const PlacedRay& placed, const RayGri
     using Sides = RayFilter::Sides;
     const uint32_t number = primitive(placed, *found.grid);
     if (!seen_.empty() && !seen_[number].contain(ray.number)) return false;
+    if (ray.only && ray.only->primitive.value_or(number) != number) return false;
     const Primitive& own = dicer_.context().scene->primitives[number];
     if (own.solid >= 0) return true;  // the whole solid has sides
     const Attributes& attributes = dicer_.attributes(number);
-    if (ray.only && ray.only->primitive.value_or(number) != number) return false;
     if (ray.only && !ray.only->admits(attributes.rays.groups)) return false;
     if (ray.only && ray.only->with_inside && !attributes.interior) return false;
     Sides sides = ray.only ? ray.only->sides : Sides::OfAttributes;
@@ -70,26 +70,17 @@ bool RayHits::shows(const RaySegment& ray, const PlacedRay& placed, const RayGri
     return from_outside(placed, direction, found) == (sides == Sides::Front);
 }
 
-/// Of a hit with these weights on the micropolygon's corners.
-RayFacet RayHits::facet(const PlacedRay& placed, const RayGridHit& found, const QuadWeights& weights,
-                        RayFilter::Facets wanted) const {
-    constexpr float kFromEdges = 1.0f / 32;
+RayFacet RayHits::facet(const RaySegment& ray, const PlacedRay& placed, const RayGridHit& found) const {
     RayFacet facet;
     facet.reversed = dicer_.attributes(primitive(placed, *found.grid)).reverse_orientation;
     const size_t poses = placed.place ? placed.place->camera_from_shared.size() : 1;
-    const bool all = wanted == RayFilter::Facets::AllTimes;
+    const bool all = ray.only->facets == RayFilter::Facets::AllTimes;
     const size_t keys = all ? std::max(poses, static_cast<size_t>(found.grid->key_count)) : 1;
     for (size_t key = 0; key < keys; ++key)
         facet.keys.push_back(
             corners(placed, found,
                     keys == 1 ? placed.space.time : static_cast<float>(key) / static_cast<float>(keys - 1)));
-    const size_t not_hit = weights.w[k10] < weights.w[k01] ? k10 : k01;
-    float sum = 0;
-    for (size_t corner = 0; corner < 4; ++corner) {
-        facet.weights[corner] = corner == not_hit ? 0 : std::max(weights.w[corner], kFromEdges);
-        sum += facet.weights[corner];
-    }
-    for (float& weight : facet.weights) weight /= sum;
+    facet.set_inner(ray.origin + ray.direction * (found.hit.depth / placed.scale), placed.space.time);
     return facet;
 }
 
@@ -127,8 +118,7 @@ RaySurfaceHit RayHits::hit_of(const RaySegment& ray, const PlacedRay& placed, co
     if (placed.place && !brings_colors(own)) hit.color = own.attributes->color;
     hit.place.instance = placed.place, hit.place.depth = found.hit.depth, hit.place.id = found.hit.id;
     hit.at = {weights.w[k10] + weights.w[k11], weights.w[k01] + weights.w[k11]};
-    if (ray.only && ray.only->facets != RayFilter::Facets::NotTold)
-        hit.facet = facet(placed, found, weights, ray.only->facets);
+    if (ray.only && ray.only->facets != RayFilter::Facets::NotTold) hit.facet = facet(ray, placed, found);
     return hit;
 }
 

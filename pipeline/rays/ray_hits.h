@@ -4,7 +4,6 @@
 #include <optional>
 #include <tuple>
 
-#include "core/hit_micropolygon.h"
 #include "core/scene/level_of_detail.h"
 #include "core/scene/ray_scene.h"
 #include "pipeline/rays/placed_ray.h"
@@ -38,8 +37,7 @@ class RayHits {
   private:
     uint32_t primitive(const PlacedRay& placed, const Grid& grid) const;
     bool from_outside(const PlacedRay& placed, const V3f& direction, const RayGridHit& found) const;
-    RayFacet facet(const PlacedRay& placed, const RayGridHit& found, const QuadWeights& weights,
-                   RayFilter::Facets wanted) const;
+    RayFacet facet(const RaySegment& ray, const PlacedRay& placed, const RayGridHit& found) const;
     bool shows(const RaySegment& ray, const PlacedRay& placed, const RayGridHit& found) const;
 
     const RayDicer& dicer_;

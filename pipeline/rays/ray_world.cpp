@@ -1,4 +1,5 @@
 #include "pipeline/rays/ray_world.h"
+#include "pipeline/rays/hits_ahead.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -171,6 +172,11 @@ void RayWorld::blocked(std::span<const RaySegment* const> rays, RayKind kind,
             for (size_t k = 0; k < parts.size(); ++k)
                 if (found[k] != false && blocked[numbers[k]] != true) blocked[numbers[k]] = found[k];
         });
+}
+
+/// Of grids that are made when rays come by hits are found one by one.
+std::unique_ptr<RayAhead> RayWorld::look_ahead() const {
+    return makes_bricks_ ? nullptr : std::make_unique<HitsAhead>();
 }
 
 int RayWorld::dice(const RaySurfaceHit& hit, ShadingGrid& grid) const {

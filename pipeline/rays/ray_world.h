@@ -27,6 +27,7 @@ class RayWorld final : public RayScene {
     bool has(RayKind kind) const override;
     void closest(std::span<const RaySegment* const> rays, RayKind kind,
                  std::span<std::optional<RaySurfaceHit>> hits) const override;
+    std::unique_ptr<RayAhead> look_ahead() const override;
     void blocked(std::span<const RaySegment* const> rays, RayKind kind,
                  std::span<std::optional<bool>> blocked) const override;
     /// Of one ray.

@@ -152,8 +152,9 @@ void GatherCall::add_rays(size_t number, int first, int count) {
     ray.footprint.width = asker_.width_at(aim.P, asking);
     ray.footprint.spread = ray.segment.spread = spread_of(angle, arguments_.samples_at(lane));
     const auto begins = [&](const LeftSurface& left) {
-        return aim.leads() ? asker_.leaving_at(aim.P, asking, arguments_.bias.at(lane), left, kind_)
-                           : std::nullopt;
+        return traces_ && aim.leads()
+                   ? asker_.leaving_at(aim.P, asking, arguments_.bias.at(lane), left, kind_)
+                   : std::nullopt;
     };
     for (int s = first; s < first + count; ++s) {
         ray.segment.time = motion.time(s);
@@ -176,9 +177,13 @@ void GatherCall::add_rays(size_t number, int first, int count) {
         ray.medium = asker_.medium(asking, direction);
         ray.seed = asking.of_ray(s), ray.segment.number = asker_.number(asking, s);
         if (std::optional<LeavingPoint> leaving = begins(ray.segment.left)) {
-            leaving->P += origin - P;
-            const V3f meant = angle <= kQuarterTurn ? turned(axis) : ray.segment.direction;
-            starts_.add(rays_.size(), *leaving, motion.turned_back(meant, ray.segment.time, true));
+            leaving->P += origin - P, leaving->is_vertex = origin == P;
+            LeavingRay start{.ray = rays_.size()};
+            start.way = motion.turned_back(ray.segment.direction, ray.segment.time, true);
+            start.axis =
+                angle <= kQuarterTurn ? motion.turned_back(turned(axis), ray.segment.time, true) : start.way;
+            start.turn = motion.turn_of_space_alone(ray.segment.time, kind_ == RayKind::Diffuse);
+            starts_.add(*leaving, start);
         }
         rays_.push_back(ray);
     }

@@ -6,23 +6,9 @@
 #include "core/random.h"
 #include "core/scene/poses.h"
 #include "core/scene/shading_grid.h"
+#include "shade/rays/shortest_turn.h"
 
 namespace trapeze {
-
-namespace {
-
-/// A direction turned as what leads from one unit vector to another by the shortest way; where none does, as
-/// it is.
-V3f turned_from(const V3f& from, const V3f& to, const V3f& direction) {
-    const V3f axis = from.cross(to);
-    const float cosine = from.dot(to);
-    constexpr float kNearlyOpposite = -0.999f;
-    const bool are_unit = from != V3f(0, 0, 0) && to != V3f(0, 0, 0);
-    if (!are_unit || !(cosine > kNearlyOpposite)) return direction;
-    return direction * cosine + axis.cross(direction) + axis * (axis.dot(direction) / (1 + cosine));
-}
-
-}  // namespace
 
 LaneMotion::LaneMotion(const RayAsker& asker, const RayLane& lane, std::optional<float> given)
     : grid_(lane.grid), vertex_(lane.lane - lane.first_of_grid) {
@@ -49,6 +35,19 @@ V3f LaneMotion::turned(const V3f& direction, float time, bool diffuse) const {
 V3f LaneMotion::turned_back(const V3f& direction, float time, bool diffuse) const {
     if (!is_hit_ && !diffuse) return direction;
     return turn_.back(at_open_ && time != 0 ? turned_by_shape(direction, time, true) : direction, time);
+}
+
+std::optional<M33f> LaneMotion::turn_of_space_alone(float time, bool diffuse) const {
+    const bool turns = grid_ && time != 0 && (is_hit_ || diffuse);
+    if (!turns || at_open_ || grid_->primitive->shape_keys.size() <= 1) return {};
+    M33f turn;
+    for (int axis = 0; axis < 3; ++axis) {
+        V3f way(0, 0, 0);
+        way[axis] = 1;
+        const V3f turned = turn_.forward(way, time);
+        for (int k = 0; k < 3; ++k) turn[axis][k] = turned[k];
+    }
+    return turn;
 }
 
 V3f LaneMotion::turned_by_shape(const V3f& direction, float time, bool back) const {

@@ -34,6 +34,9 @@ class LaneMotion {
     /// are.
     V3f turned(const V3f& direction, float time, bool diffuse) const;
     V3f turned_back(const V3f& direction, float time, bool diffuse) const;
+    /// What turned() does where that is the turn of the space alone though the surface deforms and directions
+    /// should turn with it: the grid does not tell how. Else nothing.
+    std::optional<M33f> turn_of_space_alone(float time, bool diffuse) const;
     /// Where the surface's unit normal of shutter open leads at a time; nothing where the surface stretches
     /// so much that it may be bent otherwise, or deforms.
     std::optional<V3f> normal(const V3f& normal, float time) const;

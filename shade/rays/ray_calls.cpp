@@ -300,9 +300,12 @@ void RayCalls::add_arrival(const Call& call, const RayLane& asking, const RayAim
     const std::optional<LeavingPoint> leaving =
         asker_.leaving_at(call.arguments.towards_at(asking.lane), asking, bias, segment.left, call.kind());
     if (!leaving && !(segment.min < segment.max)) return;
-    if (leaving)
-        sent.arrival_starts.add(sent.arrivals.size(), *leaving,
-                                motion.turned_back(segment.direction, aim.time, true));
+    if (leaving) {
+        const V3f back = motion.turned_back(segment.direction, aim.time, true);
+        sent.arrival_starts.add(
+            *leaving,
+            {.ray = sent.arrivals.size(), .way = back, .axis = back, .towards = whole.segment.origin});
+    }
     near.moved = motion.turned(RayAsker::inwards(asking, segment.left), aim.time, true);
     segment.origin = end + near.moved;
     near.seed = asking.of_ray(-1);
@@ -315,14 +318,13 @@ void RayCalls::add_arrival(const Call& call, const RayLane& asking, const RayAim
 void RayCalls::end_at_arrivals(LaneRays& sent) {
     for (size_t i = 0; i < sent.arrivals.size(); ++i) {
         WalkedRay& whole = sent.rays[sent.arriving[i]];
-        WalkedRay& near = sent.arrivals[i];
-        if (near.moved == V3f(0, 0, 0)) continue;
-        const RayAim aim(whole.segment.origin, near.segment.origin - whole.segment.origin,
-                         whole.segment.time);
+        RaySegment& near = sent.arrivals[i].segment;
+        if (sent.arrivals[i].moved == V3f(0, 0, 0)) continue;
+        const RayAim aim(whole.segment.origin, near.origin - whole.segment.origin, whole.segment.time);
         if (!aim.leads()) continue;
-        whole.segment.direction = aim.direction, near.segment.direction = -aim.direction;
-        whole.end = aim.length;
-        whole.segment.max = aim.length - near.segment.max;
+        whole.segment.direction = aim.direction;
+        near.max = std::max(near.max, near.min);
+        whole.end = aim.length, whole.segment.max = aim.length - near.max;
     }
 }
 
@@ -377,7 +379,8 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, LaneRays& sent)
     const bool knows_surface =
         outside != V3f(0, 0, 0) && asker_.knows_where_to_begin(at_surface, asking, motion, bias, call.kind());
     const auto begins = [&](const LeftSurface& left) {
-        return ends_here ? std::nullopt : asker_.leaving_at(at_surface, asking, bias, left, call.kind());
+        const bool is_of_P = ends_here || call.is_distance();
+        return is_of_P ? std::nullopt : asker_.leaving_at(at_surface, asking, bias, left, call.kind());
     };
     const bool by_cosine = call.over_sky() && !arguments.uniform_distribution;
     for (int s = 0; s < samples; ++s) {
@@ -397,9 +400,14 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, LaneRays& sent)
         (arrives ? ray.end_medium : ray.medium) = asker_.medium(asking, arrives ? -way : way);
         ray.seed = asking.of_ray(s), ray.segment.number = asker_.number(asking, s);
         if (std::optional<LeavingPoint> leaving = begins(ray.segment.left)) {
-            leaving->P += origin - aim.P;
-            const V3f& meant = angle <= kTurn / 4 ? aim.direction : ray.segment.direction;
-            sent.starts.add(sent.rays.size(), *leaving, motion.turned_back(meant, aim.time, true));
+            leaving->P += origin - aim.P, leaving->is_vertex = origin == aim.P;
+            LeavingRay start{.ray = sent.rays.size()};
+            start.way = motion.turned_back(ray.segment.direction, aim.time, true);
+            start.axis = angle <= kTurn / 4 ? motion.turned_back(aim.direction, aim.time, true) : start.way;
+            if (call.ends_at_point() && angle == 0) start.towards = aim.P + aim.direction * aim.length;
+            start.ends = ray.end >= aim.length;
+            start.turn = motion.turn_of_space_alone(aim.time, call.over_sky());
+            sent.starts.add(*leaving, start);
         }
         sent.rays.push_back(ray);
         // A surface that has turned since the shutter opened, so that light comes to its other side.

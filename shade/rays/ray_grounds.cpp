@@ -51,7 +51,7 @@ Hits look_around(const RayScene& scene, RayKind kind, std::span<const LeavingPoi
     Hits nearest;
     for (size_t i = 0; i < points.size(); ++i) {
         const auto way = [&](const std::optional<RaySurfaceHit>& hit) {
-            return hit ? std::abs(hit->distance - kBefore * points[i].rounding) : kInfinity;
+            return is_of(hit, points[i]) ? std::abs(hit->distance - kBefore * points[i].rounding) : kInfinity;
         };
         std::optional<RaySurfaceHit>&outside = hits[2 * i], &inside = hits[2 * i + 1];
         nearest.push_back(std::move(way(inside) < way(outside) ? inside : outside));
@@ -110,7 +110,7 @@ std::vector<RayGrounds::Ground> RayGrounds::of(const RayScene& scene, RayKind ki
     }
     std::vector<Ground> found = look(scene, kind, unknown);
     for (size_t k = 0; k < unknown.size(); ++k) {
-        known_.emplace(Asked{unknown[k], kind}, found[k]);
+        if (unknown[k].is_vertex) known_.emplace(Asked{unknown[k], kind}, found[k]);
         grounds[numbers[k]] = std::move(found[k]);
     }
     return grounds;

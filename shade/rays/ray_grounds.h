@@ -17,9 +17,10 @@ struct LeavingPoint {
     V3f P, normal;     ///< of unit length, outside
     float number = 0;  ///< of a ray that sees the surface (RaySegment::number)
     uint32_t primitive = 0;
-    uint8_t level = 0;   ///< of the geometry
-    float reach = 0;     ///< what rays meet of the surface is no farther from P
-    float rounding = 0;  ///< of positions
+    uint8_t level = 0;      ///< of the geometry
+    float reach = 0;        ///< what rays meet of the surface is no farther from P
+    float rounding = 0;     ///< of positions
+    bool is_vertex = true;  ///< else a place beside one, which is asked for once
 
     bool operator==(const LeavingPoint&) const = default;
 };
@@ -29,8 +30,9 @@ class RayGrounds {
   public:
     using Ground = std::shared_ptr<const RayFacet>;
 
-    /// Of each point the micropolygon of its primitive that is nearest along the normal, on either side; null
-    /// where rays of the kind meet none within reach.
+    /// Of each point the micropolygon of its primitive that is nearest along the normal, of those that face
+    /// the same way, or that which is seen from a little outside; null where rays of the kind meet none
+    /// within reach.
     std::vector<Ground> of(const RayScene& scene, RayKind kind, std::span<const LeavingPoint> points);
 
   private:

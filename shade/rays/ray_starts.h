@@ -18,26 +18,39 @@
 
 namespace trapeze {
 
+/// How a ray leaves a point.
+struct LeavingRay {
+    size_t ray = 0;  ///< its number
+    /// As the shutter opens: where it leads, and the axis of the cone of such rays, on whose side of the
+    /// surface it is meant to be.
+    V3f way{0, 0, 0}, axis{0, 0, 0};
+    /// Where it goes to, whatever it begins on; nothing: it keeps its direction. `ends`: it ends there, or a
+    /// little before.
+    std::optional<V3f> towards = {};
+    bool ends = false;
+    /// Of directions that ought to have turned with a surface that deforms: how their space has turned them.
+    std::optional<M33f> turn = {};
+};
+
 /// The starts of rays that are to be sent together.
 class RayStarts {
   public:
-    /// Of the ray of a number. `meant`: a direction, as the shutter opens, to the side of the surface that it
-    /// is meant to be on.
-    void add(size_t ray, const LeavingPoint& point, const V3f& meant);
+    void add(const LeavingPoint& point, const LeavingRay& ray);
     /// Moves the rays to where they begin; not where nothing is found of their surface. They refer to this
     /// until it is called for the next rays.
     void settle(const RayScene& scene, RayKind kind, RayGrounds& grounds, std::span<WalkedRay> rays);
 
   private:
     struct Start {
-        size_t ray, point;  ///< indices
-        bool outside;
+        LeavingRay leaving;
+        size_t point;  ///< index
+        bool outside;  ///< the side that it is meant to be on
+        bool crosses;  ///< the vertex' plane: it may go behind the surface
     };
-
     /// Where a ray leads from the micropolygon that it begins on.
     enum class Way : uint8_t { Away, Into, FromBehind };
 
-    Way begin(const Start& start, WalkedRay& ray) const;
+    Way begin(const Start& start, const FacetPose& facet, WalkedRay& ray) const;
     void come_out(const RayScene& scene, RayKind kind, std::span<const Start> behind,
                   std::span<WalkedRay> rays, std::vector<Start>& into) const;
     void meet_grounds(const RayScene& scene, RayKind kind, std::span<const Start> into,

@@ -112,6 +112,7 @@ Task<> RayWalk::walk(std::span<WalkedRay* const> rays, std::vector<WalkedRay*> f
     std::vector<const RaySegment*> segments;
     std::vector<std::optional<RaySurfaceHit>> hits;
     std::vector<Met> met;
+    std::vector<std::unique_ptr<RayAhead>> ahead;  // of rays
     const int layers = ask.first_alone ? 1 : kMostLayersOfRay;
     for (int layer = 0; layer < layers && !going.empty(); ++layer) {
         segments.clear(), met.clear();
@@ -130,9 +131,13 @@ Task<> RayWalk::walk(std::span<WalkedRay* const> rays, std::vector<WalkedRay*> f
             const auto some = std::span(met).subspan(first, std::min(kShadedTogether, met.size() - first));
             co_await visit_hits(some, ask, wants, layer == 0);
             for (const Met& one : some)
-                if (pass(one, ask)) going.push_back(one.ray);
+                if (pass(one, ask)) {
+                    going.push_back(one.ray);
+                    if (layer == 0) one.ray->segment.ahead = ahead.emplace_back(scene_.look_ahead()).get();
+                }
         }
     }
+    for (WalkedRay* ray : rays) ray->segment.ahead = nullptr;
     if (!free.empty()) co_await come_to_ends(free, ask, wants);
 }
 
@@ -221,6 +226,9 @@ ShadingGrid& RayWalk::grid_of(Met& met, const RayAsk& ask, size_t number) {
     grid.medium = met.medium;
     const bool in_medium = grid.medium != RayMedium();
     grid.hit_from = in_medium ? ray.origin + ray.direction * met.ray->medium_from : ray.origin;
+    // What begins on the surface that it hits comes from somewhere all the same.
+    if (met.hit.distance <= met.ray->medium_from)
+        grid.hit_from = place - ray.direction * scene_.spacing(place);
     grid.hit_ray = met.ray->footprint.behind(met.hit.distance);
     see_hit(grid);
     grid.seed = met.ray->seed;

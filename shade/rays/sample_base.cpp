@@ -16,9 +16,10 @@ V3f SampleBase::origin(const V3f& P, const RayArguments& arguments, const RayLan
     if (span == batch_->spans.end()) return P;
     // To the next vertex of a row or column, or from the one before.
     const size_t across = static_cast<size_t>(span->shape.nu) + 1, at = lane.lane - span->first;
+    const V3f here = arguments.from_at(lane.lane);
     const auto side = [&](size_t step, bool last) {
         const V3f there = arguments.from_at(last ? lane.lane - step : lane.lane + step);
-        const V3f way = last ? P - there : there - P;
+        const V3f way = last ? here - there : there - here;
         return std::isfinite(way.x) && std::isfinite(way.y) && std::isfinite(way.z) ? way : V3f(0, 0, 0);
     };
     const V3f along_u = side(1, at % across == across - 1);

@@ -163,7 +163,7 @@ class SingleRay {
 
   private:
     /// Closest hits are sooner found from near to far; any hit is as good as another.
-    static constexpr bool kSorted = std::is_same_v<Policy, ClosestHit>;
+    static constexpr bool kSorted = std::is_same_v<Policy, ClosestHit> || std::is_same_v<Policy, NearestHits>;
     using Stack = AheadStack<kSorted, 256>;
     using BoxStack = AheadStack<kSorted, BoxPlanes::kMost>;
     using VU = CompactLanes::VU;

@@ -74,6 +74,9 @@ ClosestHit trace_closest(const Query& query, const Hit& from, SingleRayCounts* c
     const ClosestHit policy{.from = from};
     return counts ? traced(query, CountAll{*counts}, policy) : traced(query, CountNothing(), policy);
 }
+void trace_nearest(const Query& query, NearestHits& hits) {
+    hits = traced(query, CountNothing(), hits);
+}
 FirstOpaque trace_opaque(const Query& query, float near) {
     return traced(query, CountNothing(), FirstOpaque{.near = near});
 }
@@ -122,6 +125,7 @@ using namespace single_ray_detail;
 
 HWY_EXPORT(trace_group);
 HWY_EXPORT(trace_closest);
+HWY_EXPORT(trace_nearest);
 HWY_EXPORT(trace_any);
 HWY_EXPORT(trace_opaque);
 
@@ -144,6 +148,11 @@ std::optional<Hit> closest_hit(const WideTree& tree, const SpaceRay& ray, DepthR
 std::optional<Hit> closest_hit_from(const WideTree& tree, const SpaceRay& ray, DepthRange range,
                                     const Hit& from) {
     return closest(tree, ray, range, from, nullptr);
+}
+
+void nearest_hits(const WideTree& tree, const SpaceRay& ray, DepthRange range, NearestHits& hits) {
+    TraceRay trace_ray = TraceRay::turned(axis_ray(ray), range);
+    if (has_numbers(trace_ray)) HWY_DYNAMIC_DISPATCH(trace_nearest)({tree, trace_ray}, hits);
 }
 
 bool any_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range, SingleRayCounts* counts) {

@@ -22,6 +22,8 @@ std::optional<Hit> closest_hit(const WideTree& tree, const SpaceRay& ray, DepthR
 /// WideTree::closest_from().
 std::optional<Hit> closest_hit_from(const WideTree& tree, const SpaceRay& ray, DepthRange range,
                                     const Hit& from);
+/// WideTree::nearest().
+void nearest_hits(const WideTree& tree, const SpaceRay& ray, DepthRange range, NearestHits& hits);
 bool any_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range, SingleRayCounts* counts = nullptr);
 /// WideTree::in_the_way().
 InTheWay opaque_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range, float near);

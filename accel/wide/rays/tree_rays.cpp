@@ -12,6 +12,10 @@ std::optional<Hit> WideTree::closest_from(const SpaceRay& ray, DepthRange range,
     return closest_hit_from(*this, ray, range, from);
 }
 
+void WideTree::nearest(const SpaceRay& ray, DepthRange range, NearestHits& hits) const {
+    nearest_hits(*this, ray, range, hits);
+}
+
 bool WideTree::any(const SpaceRay& ray, DepthRange range) const {
     return any_hit(*this, ray, range);
 }
