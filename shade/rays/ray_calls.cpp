@@ -313,6 +313,25 @@ void RayCalls::add_arrival(const Call& call, const RayLane& asking, const RayAim
     sent.arrivals.push_back(near);
 }
 
+/// The last ray, which begins beside its point, begins on what rays meet of the surface where no slab is
+/// known.
+void RayCalls::begin_on_ground(const Call& call, const RayLane& asking, const RayAim& aim,
+                               const LaneMotion& motion, const V3f& beside, LaneRays& sent) const {
+    const WalkedRay& ray = sent.rays.back();
+    const float bias = call.arguments.bias.at(asking.lane), angle = call.angle_at(asking.lane);
+    std::optional<LeavingPoint> leaving =
+        asker_.leaving_at(call.arguments.from_at(asking.lane), asking, bias, ray.segment.left, call.kind());
+    if (!leaving) return;
+    leaving->P += beside, leaving->is_vertex = beside == V3f(0, 0, 0);
+    LeavingRay start{.ray = sent.rays.size() - 1};
+    start.way = motion.turned_back(ray.segment.direction, aim.time, true);
+    start.axis = angle <= kTurn / 4 ? motion.turned_back(aim.direction, aim.time, true) : start.way;
+    if (call.ends_at_point() && angle == 0) start.towards = aim.P + aim.direction * aim.length;
+    start.ends = ray.end >= aim.length;
+    start.turn = motion.turn_of_space_alone(aim.time, call.over_sky());
+    sent.starts.add(*leaving, start);
+}
+
 /// Rays end where the way from their surface back to them begins: in one line with it, no gap is between
 /// both.
 void RayCalls::end_at_arrivals(LaneRays& sent) {
@@ -378,10 +397,7 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, LaneRays& sent)
     const float above = outside.dot(aim.direction);
     const bool knows_surface =
         outside != V3f(0, 0, 0) && asker_.knows_where_to_begin(at_surface, asking, motion, bias, call.kind());
-    const auto begins = [&](const LeftSurface& left) {
-        const bool is_of_P = ends_here || call.is_distance();
-        return is_of_P ? std::nullopt : asker_.leaving_at(at_surface, asking, bias, left, call.kind());
-    };
+    const bool begins_here = !ends_here && !call.is_distance();
     const bool by_cosine = call.over_sky() && !arguments.uniform_distribution;
     for (int s = 0; s < samples; ++s) {
         if (const float time = motion.time(s); time != aim.time) {
@@ -399,17 +415,8 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, LaneRays& sent)
         const V3f way = motion.turned_back(ray.segment.direction, ray.segment.time, call.over_sky());
         (arrives ? ray.end_medium : ray.medium) = asker_.medium(asking, arrives ? -way : way);
         ray.seed = asking.of_ray(s), ray.segment.number = asker_.number(asking, s);
-        if (std::optional<LeavingPoint> leaving = begins(ray.segment.left)) {
-            leaving->P += origin - aim.P, leaving->is_vertex = origin == aim.P;
-            LeavingRay start{.ray = sent.rays.size()};
-            start.way = motion.turned_back(ray.segment.direction, aim.time, true);
-            start.axis = angle <= kTurn / 4 ? motion.turned_back(aim.direction, aim.time, true) : start.way;
-            if (call.ends_at_point() && angle == 0) start.towards = aim.P + aim.direction * aim.length;
-            start.ends = ray.end >= aim.length;
-            start.turn = motion.turn_of_space_alone(aim.time, call.over_sky());
-            sent.starts.add(*leaving, start);
-        }
         sent.rays.push_back(ray);
+        if (begins_here) begin_on_ground(call, asking, aim, motion, origin - aim.P, sent);
         // A surface that has turned since the shutter opened, so that light comes to its other side.
         const V3f seen = motion.turned_back(aim.direction, aim.time, true);
         if (aim.time > 0 && above * outside.dot(seen) < 0)

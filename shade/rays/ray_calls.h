@@ -53,6 +53,8 @@ class RayCalls : public vm::Rays {
     void add_rays(const Call& call, const RayLane& lane, LaneRays& sent) const;
     void add_arrival(const Call& call, const RayLane& lane, const RayAim& aim, const LaneMotion& motion,
                      LaneRays& sent) const;
+    void begin_on_ground(const Call& call, const RayLane& lane, const RayAim& aim, const LaneMotion& motion,
+                         const V3f& beside, LaneRays& sent) const;
     static void end_at_arrivals(LaneRays& sent);
     Task<> dim_by_own_surface(const Call& call, LaneRays& sent) const;
     RayFootprint footprint_of(const Call& call, const RayLane& asking, const RayAim& aim,
