@@ -1,5 +1,4 @@
 #include "pipeline/rays/ray_world.h"
-#include "pipeline/rays/hits_ahead.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -7,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/rays/hits_ahead.h"
 #include "pipeline/rays/make_surfels.h"
 
 namespace trapeze {

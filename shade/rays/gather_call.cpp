@@ -152,7 +152,7 @@ void GatherCall::add_rays(size_t number, int first, int count) {
     ray.footprint.width = asker_.width_at(aim.P, asking);
     ray.footprint.spread = ray.segment.spread = spread_of(angle, arguments_.samples_at(lane));
     const auto begins = [&](const LeftSurface& left) {
-        return traces_ && aim.leads()
+        return traces_ && !is_distance && aim.leads()
                    ? asker_.leaving_at(aim.P, asking, arguments_.bias.at(lane), left, kind_)
                    : std::nullopt;
     };

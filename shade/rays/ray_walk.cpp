@@ -99,8 +99,7 @@ void RayWalk::distance(std::span<WalkedRay> rays, const RayAsk& ask) {
     std::vector<std::optional<RaySurfaceHit>> hits(rays.size());
     scene_.closest(segments_of(rays), ask.kind, hits);
     for (size_t i = 0; i < rays.size(); ++i)
-        if (hits[i] || rays[i].first)
-            rays[i].distance = rays[i].first ? rays[i].first->distance : hits[i]->distance;
+        if (hits[i]) rays[i].distance = hits[i]->distance;
     count_of(ask.kind, stats_) += rays.size();
 }
 
@@ -227,8 +226,7 @@ ShadingGrid& RayWalk::grid_of(Met& met, const RayAsk& ask, size_t number) {
     const bool in_medium = grid.medium != RayMedium();
     grid.hit_from = in_medium ? ray.origin + ray.direction * met.ray->medium_from : ray.origin;
     // What begins on the surface that it hits comes from somewhere all the same.
-    if (met.hit.distance <= met.ray->medium_from)
-        grid.hit_from = place - ray.direction * scene_.spacing(place);
+    if (met.hit.distance <= 0) grid.hit_from = place - ray.direction * scene_.spacing(place);
     grid.hit_ray = met.ray->footprint.behind(met.hit.distance);
     see_hit(grid);
     grid.seed = met.ray->seed;
