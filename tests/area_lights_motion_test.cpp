@@ -96,6 +96,34 @@ TEST(AreaLights, StandStillWhereTheCameraMoves) {
     expect_lit(c.render(asks(kUnitSquare)), 0.001, 0.02);
 }
 
+/// What is lit deforms: a square tilts about its middle. Its points are lit where they are as the shutter
+/// opens, as all is shaded there, but as the square lies at each moment; grids of one row, too.
+TEST(AreaLights, LightWhatDeformsAsItLiesAtEachMoment) {
+    for (const char* rate : {"", "ShadingRate 700 "})
+        for (const std::string& light : {arealight("Polygon \"P\" [-.5 -.5 0 .5 -.5 0 .5 .5 0 -.5 .5 0] ",
+                                                   "\"float intensity\" [.31830988]"),
+                                         ris("PxrRectLight", "Translate 0 0 3")}) {
+            SCOPED_TRACE(light + rate);
+            Case c = lit_by(light);
+            c.options = "Shutter 0 1 ";
+            c.asker += std::string(rate) + "Attribute \"trace\" \"int samplemotion\" [1] ";
+            c.asks =
+                "MotionBegin [0 1] " + kAsker +
+                "Patch \"bilinear\" \"P\" [-1.2 1.2 6.8 1.2 1.2 3.2 -1.2 -1.2 6.8 1.2 -1.2 3.2] MotionEnd ";
+            c.functions +=
+                "float across(point p, a, b; vector n) { vector u = normalize(a - p), v = normalize(b - p);"
+                "  return acos(clamp(u . v, -1, 1)) * (normalize(u ^ v) . n); } ";
+            expect_lit(
+                c.render(asks("float expected = 0, i; for (i = 0; i < 64; i += 1) {"
+                              "  float tilt = 1.5 * (i + .5) / 64; vector n = normalize(vector(tilt, 0, 1));"
+                              "  point a = point(-.5, -.5, 3), b = point(.5, -.5, 3), c = point(.5, .5, 3),"
+                              "    d = point(-.5, .5, 3);"
+                              "  expected += abs(across(P, a, b, n) + across(P, b, c, n) +"
+                              "    across(P, c, d, n) + across(P, d, a, n)) / (2 * PI) / 64; }")),
+                0.003, 0.05);
+        }
+}
+
 /// Whose rays all leave as the shutter opens sees lights there, too.
 TEST(AreaLights, ThatMoveAreAtShutterOpenForWhoDoesNotSampleMotion) {
     Case c = lit_by(arealight(kMovesAcross + "Polygon \"P\" [-.5 -.5 0 .5 -.5 0 .5 .5 0 -.5 .5 0] "));

@@ -41,6 +41,7 @@ void AreaSamples::start(const vm::Context& surroundings, size_t lanes, const Pla
     lanes_ = lanes;
     N_ = N;
     seed_ = seed;
+    held_ = held;
     has_times_ = false;
     surface_turns_.clear();
     if (!surroundings_->batch) return;
@@ -49,6 +50,12 @@ void AreaSamples::start(const vm::Context& surroundings, size_t lanes, const Pla
         surface_turns_.push_back(has ? turn_of(*span.grid, held) : MotionTurn());
         has_times_ |= has;
     }
+}
+
+/// Of what deforms; what else turns does so with its space. What a ray has hit knows no motion of the camera.
+VertexMotion AreaSamples::motion_of(const vm::GridSpan& span, size_t vertex) const {
+    if (!span.grid || !has_times(*span.grid) || span.grid->primitive->shape_keys.size() <= 1) return {};
+    return {*span.grid, vertex, span.grid->hit_vertex >= 0 ? std::span<const M44f>() : held_};
 }
 
 std::vector<float> AreaSamples::take(const Turn& turn, const Lamp& lamp, const vm::Operand& P) {
@@ -66,7 +73,8 @@ std::vector<float> AreaSamples::take(const Turn& turn, const Lamp& lamp, const v
         uint32_t seed;
         const ShadingGrid* grid = nullptr;
         size_t vertex = 0;
-        const MotionTurn* surface = nullptr;
+        const MotionTurn* space = nullptr;
+        VertexMotion surface;
     };
     const auto choose = [&](const Lit& lit) {
         const size_t lane = lit.lane;
@@ -83,9 +91,9 @@ std::vector<float> AreaSamples::take(const Turn& turn, const Lamp& lamp, const v
         if (normal.dot(is_hit ? lit.grid->I.at(lit.vertex) : eye_way(*surroundings_, point)) > 0)
             normal = -normal;
         // A single direction lights what turns as it lies at shutter open, as lights without a shape do.
-        if (lit.surface && !sampler->is_point()) {
+        if (lit.space && !sampler->is_point()) {
             turned_[lane] = time;
-            normal = lit.surface->forward(normal, time);
+            normal = lit.surface.forward(normal, time, *lit.space);
         }
         const RaySequence sequence(hash(lit.seed, turn.number, kAreaLights), turn.samples);
         const LightSample made = sampler->sample(point, normal, sequence[turn.sample]);
@@ -100,14 +108,15 @@ std::vector<float> AreaSamples::take(const Turn& turn, const Lamp& lamp, const v
         }
     };
     if (!surroundings_->batch)
-        for (size_t lane = 0; lane < lanes_; ++lane) choose({lane, hash(static_cast<uint32_t>(lane), seed_)});
+        for (size_t lane = 0; lane < lanes_; ++lane)
+            choose({lane, hash(static_cast<uint32_t>(lane), seed_), nullptr, 0, nullptr, {}});
     else
         for (size_t number = 0; number < surroundings_->batch->spans.size(); ++number) {
             const vm::GridSpan& span = surroundings_->batch->spans[number];
             const uint32_t grid = span.word(seed_);
             for (size_t i = 0; i < static_cast<size_t>(span.shape.vertex_count()); ++i)
                 choose({span.first + i, hash(grid, static_cast<uint32_t>(i)), span.grid, i,
-                        &surface_turns_[number]});
+                        &surface_turns_[number], motion_of(span, i)});
         }
     return times;
 }
@@ -115,13 +124,13 @@ std::vector<float> AreaSamples::take(const Turn& turn, const Lamp& lamp, const v
 void AreaSamples::turn_back(float* L) const {
     if (!has_times_) return;
     for (size_t number = 0; number < surface_turns_.size(); ++number) {
-        const MotionTurn& surface = surface_turns_[number];
-        if (surface.is_none()) continue;
+        const MotionTurn& space = surface_turns_[number];
         const vm::GridSpan& span = surroundings_->batch->spans[number];
+        if (space.is_none() && !motion_of(span, 0).deforms()) continue;
         for (size_t i = 0; i < static_cast<size_t>(span.shape.vertex_count()); ++i) {
             const size_t lane = span.first + i;
             const V3f way(L[lane], L[lanes_ + lane], L[2 * lanes_ + lane]);
-            const V3f back = surface.back(way, turned_[lane]);
+            const V3f back = motion_of(span, i).back(way, turned_[lane], space);
             for (int k = 0; k < 3; ++k) L[static_cast<size_t>(k) * lanes_ + lane] = back[k];
         }
     }

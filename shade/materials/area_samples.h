@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/scene/motion_turn.h"
+#include "core/scene/vertex_motion.h"
 #include "shade/materials/lamp.h"
 #include "shade/vm/machine.h"
 
@@ -42,10 +43,13 @@ class AreaSamples {
     void turn_back(float* L) const;
 
   private:
+    VertexMotion motion_of(const vm::GridSpan& span, size_t vertex) const;
+
     const vm::Context* surroundings_ = nullptr;
     size_t lanes_ = 0;
     Plane3 N_;
     uint32_t seed_ = 0;
+    std::span<const M44f> held_;
     bool has_times_ = false;                 ///< some surface's rays have times of their own
     std::vector<MotionTurn> surface_turns_;  ///< of each grid, where it has
     std::vector<float> samples_;             ///< places, normals, radiances, solid angles and areas

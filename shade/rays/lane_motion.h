@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "core/scene/motion_turn.h"
-#include "shade/rays/grid_tangents.h"
+#include "core/scene/vertex_motion.h"
 #include "shade/rays/ray_asker.h"
 
 namespace trapeze {
@@ -25,9 +25,9 @@ class LaneMotion {
     /// When a ray leaves: 0 at shutter open, below 1 (shutter_time()).
     float time(int sample) const;
     /// How far the point has come since the shutter opened; camera space at shutter open.
-    V3f way(float time) const;
+    V3f way(float time) const { return vertex_.way(time); }
     /// Where the shaded point itself is at shutter open.
-    V3f start() const { return place(0, vertex_); }
+    V3f start() const { return vertex_.start(); }
     /// Where a direction of a ray leads at a time, as its surface turns, also in deforming; and back. All
     /// rays of hits turn, for the ways that these are seen along have been turned back; of what the camera
     /// sees diffuse ones alone, which follow the normal: others, the eye's way through glass, stay as they
@@ -42,23 +42,13 @@ class LaneMotion {
     std::optional<V3f> normal(const V3f& normal, float time) const;
 
   private:
-    V3f place(int key, size_t vertex) const;
-    V3f place_at(float time, size_t vertex) const;
-    const GridTangents& tangents(float time) const;
-    /// The shortest turn from the normal of shutter open, as the space alone turns it, to a time's.
-    V3f turned_by_shape(const V3f& direction, float time, bool back) const;
-
     const ShadingGrid* grid_;
-    size_t vertex_;
-    std::span<const M44f> held_;  ///< empty: positions hold no motion of the camera
-    int keys_ = 1;
+    VertexMotion vertex_;
     bool varies_ = false;
     float shift_ = 0, only_time_ = 0;
     bool is_hit_ = false;
     MotionTurn turn_;
-    std::optional<GridTangents> at_open_;                ///< of what deforms, where its grid tells
-    mutable std::optional<GridTangents> at_known_time_;  ///< the last ones that were asked for
-    mutable float known_time_ = 0;
+    bool tells_shape_ = false;  ///< of what deforms: its grid tells how
 };
 
 }  // namespace trapeze

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "shade/rays/shortest_turn.h"
+#include "core/scene/motion_turn.h"
 
 namespace trapeze {
 namespace {
