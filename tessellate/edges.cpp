@@ -118,6 +118,11 @@ void EdgeTessellations::append(const EdgeTessellations& other) {
     for (Record r : other.records_) records_.push_back({r.first + offset, r.count});
 }
 
+void EdgeTessellations::resize(size_t count) {
+    if (count < records_.size()) intervals_.resize(records_[count].first);
+    records_.resize(count);
+}
+
 /// Edges are numbered as they are met while surfaces are split in parallel; the order that is kept does not
 /// depend on that.
 void EdgeTessellations::renumber(std::span<const uint32_t> new_number) {

@@ -66,6 +66,8 @@ class EdgeTessellations {
     void add_whole(uint8_t segments);
     /// Adds other edges, numbered on.
     void append(const EdgeTessellations& other);
+    /// Leaves the first `count` edges, as if no more had been added.
+    void resize(size_t count);
     /// Edge i becomes edge new_number[i].
     void renumber(std::span<const uint32_t> new_number);
     /// Gives back memory that growing has left over; nothing can be added cheaply afterwards.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace trapeze {
 namespace {
@@ -61,19 +63,77 @@ class FaceSplitter {
           edges_{&surface_.surface(), context.surface_edges, &out.made_lines, &out.made} {}
 
     void split_face(int face) {
+        const SplitNode node = start(face);
+        if (!emit_whole(node)) split(node);
+    }
+
+    /// The part of a face that split_face() reaches by some of the halves.
+    void split_part(const FacePart& part) {
+        SplitNode node = start(part.face);
+        for (int depth = 0; depth < part.depth; ++depth) {
+            const std::optional<std::array<SplitNode, 2>> halves = divide(node);
+            if (!halves) return;  // never: it was divided when the part was found
+            node = (*halves)[part.path >> depth & 1];
+        }
+        split(node);
+    }
+
+    /// The parts of a face, in the order of their subpatches.
+    FaceParts find_parts(int face, uint32_t most_subpatches) {
+        FaceParts found;
+        const uint64_t culled = out_.culled;
+        const uint32_t all = find_parts(start(face), {face, 0, 0}, most_subpatches, found);
+        found.culled = out_.culled - culled;
+        // Where parts are too many, how a rectangle is divided depends on those before it.
+        if (parts_ >= context_.most_parts_of_face) found.parts = {{{face, 0, 0}, all}};
+        return found;
+    }
+
+  private:
+    SplitNode start(int face) {
         face_ = face;
         stands_alone_ = surface_.surface().stands_alone(face);
         parts_ = 0;
         SplitNode node;
         node.sides = surface_.surface().sides(face);
-        if (!emit_whole(node)) split(node);
+        return node;
     }
 
-  private:
-    /// Halves a rectangle again and again, along the direction that is longer in pixels, until sides lie
-    /// within intervals and the interior is small enough; emits what is left. What no sample sees is dropped
-    /// before it is split on.
-    void split(SplitNode node) {
+    /// Adds a rectangle's parts, of `most_subpatches` at most, and tells how many subpatches there are.
+    /// Leaves no lists: what lies beside a rectangle does not need those within it.
+    uint32_t find_parts(const SplitNode& node, const FacePart& part, uint32_t most_subpatches,
+                        FaceParts& found) {
+        const size_t first = found.parts.size(), subpatches = out_.subpatches.size(),
+                     lines = out_.made_lines.size();
+        uint32_t count = 0;
+        if (const std::optional<std::array<SplitNode, 2>> halves = divide(node)) {
+            for (const uint64_t half : {0, 1})
+                count +=
+                    find_parts((*halves)[half], {part.face, part.path | half << part.depth, part.depth + 1},
+                               most_subpatches, found);
+        } else if (out_.subpatches.size() > subpatches) {
+            count = 1;
+            found.micropolygons += static_cast<uint64_t>(out_.subpatches.back().shape.micropolygon_count());
+        }
+        if (count <= most_subpatches || part.depth >= FacePart::kMostDepth) {
+            found.parts.resize(first);
+            if (count > 0) found.parts.push_back({part, count});
+        }
+        out_.subpatches.resize(subpatches), out_.bounds.resize(subpatches);
+        out_.made_lines.resize(lines), out_.made.resize(lines);
+        return count;
+    }
+
+    /// Halves a rectangle again and again, and emits what is left.
+    void split(const SplitNode& node) {
+        if (const std::optional<std::array<SplitNode, 2>> halves = divide(node))
+            for (const SplitNode& half : *halves) split(half);
+    }
+
+    /// Halves a rectangle along the direction that is longer in pixels, unless sides lie within intervals and
+    /// the interior is small enough: then it is emitted. What no sample sees is dropped before it is split
+    /// on.
+    std::optional<std::array<SplitNode, 2>> divide(SplitNode node) {
         const std::array<Want, 2> want = wanted(node);
         const bool must_u = !in_interval(node.sides[kBottom]) || !in_interval(node.sides[kTop]);
         const bool must_v = !in_interval(node.sides[kLeft]) || !in_interval(node.sides[kRight]);
@@ -81,19 +141,21 @@ class FaceSplitter {
         const bool split_u = must_u || (want[0].split && room && node.depth_u < context_.rate.max_depth);
         const bool split_v = must_v || (want[1].split && room && node.depth_v < context_.rate.max_depth);
         out_.limited |= !room && (want[0].split || want[1].split);
-        if (!split_u && !split_v) return emit(node, want);
-
+        if (!split_u && !split_v) {
+            emit(node, want);
+            return {};
+        }
         if (!node.inside) {
             const RasterBound::Result seen = bound(node);
             if (seen.rect.empty()) {
                 ++out_.culled;
-                return;
+                return {};
             }
             node.inside = seen.inside;
         }
         ++parts_;
         const bool along_u = split_u && (!split_v || want[0].pixels >= want[1].pixels);
-        for (const SplitNode& half : halves(node, along_u, room)) split(half);
+        return halves(node, along_u, room);
     }
 
     /// Adds a face that is known to need no split, its sides neither.
@@ -350,6 +412,24 @@ Splits split_faces(const SplitContext& context, int first_face, int end_face) {
     FaceSplitter splitter(context, splits);
     for (int face = first_face; face < end_face; ++face)
         if (!context.surface->surface().is_hole(face)) splitter.split_face(face);
+    return splits;
+}
+
+void find_parts(const SplitContext& context, int first_face, uint32_t most_subpatches,
+                std::span<FaceParts> found) {
+    Splits passing;
+    FaceSplitter splitter(context, passing);
+    for (size_t i = 0; i < found.size(); ++i) {
+        const int face = first_face + static_cast<int>(i);
+        if (context.surface->surface().is_hole(face)) continue;
+        found[i] = splitter.find_parts(face, most_subpatches);
+        found[i].limited = std::exchange(passing.limited, false);
+    }
+}
+
+Splits split_part(const SplitContext& context, const FacePart& part) {
+    Splits splits;
+    FaceSplitter(context, splits).split_part(part);
     return splits;
 }
 

@@ -57,4 +57,33 @@ struct Splits {
 /// faces may be split in any tasks.
 Splits split_faces(const SplitContext& context, int first_face, int end_face);
 
+/// A part of a face that halving it again and again comes to: at step d its half number `path >> d & 1`.
+struct FacePart {
+    static constexpr int kMostDepth = 63;
+
+    int face = 0;
+    uint64_t path = 0;
+    int depth = 0;  ///< of 0 it is the whole face
+};
+
+/// What a face is split into, known by how many there are.
+struct FaceParts {
+    struct Part {
+        FacePart part;
+        uint32_t subpatches;
+    };
+    std::vector<Part> parts;  ///< that have subpatches, in their order
+    uint64_t micropolygons = 0, culled = 0;
+    bool limited = false;  ///< as Splits::limited
+};
+
+/// Cuts faces first_face .. first_face + found.size() - 1 into parts of `most_subpatches` at most; into one,
+/// whatever that has, where a face is limited by SplitContext::most_parts_of_face. The context has no
+/// estimates. Takes little memory.
+void find_parts(const SplitContext& context, int first_face, uint32_t most_subpatches,
+                std::span<FaceParts> found);
+
+/// What split_faces() gives of a part: the same subpatches, but for the numbers of edges.
+Splits split_part(const SplitContext& context, const FacePart& part);
+
 }  // namespace trapeze

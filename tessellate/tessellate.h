@@ -59,6 +59,9 @@ struct TessellationOptions {
     FindDepthHeight depth_heights;
     /// For lists of subpatches, edges and vertices: of all primitives together, and of each.
     size_t most_bytes = std::numeric_limits<size_t>::max();
+    /// Lists of subpatches that are too much are made again, a part at a time, when one is asked for; only
+    /// lists of edges and vertices, which take less than the surfaces themselves, have to fit.
+    bool lists_again = false;
     OfPrimitive is_displaced;   ///< though it has no displacement shader
     OfPrimitive is_left_whole;  ///< not split: it is there for SubpatchPoint::primitive alone
     SeenBy seen_by = SeenBy::Camera;
@@ -93,10 +96,18 @@ class Tessellation {
     ~Tessellation();
 
     /// Subpatches that may be seen, in the order that defines Grid::ordinal: primitive by primitive, face by
-    /// face.
+    /// face. None where makes_lists_again().
     const std::vector<SubpatchInfo>& subpatches() const { return infos_; }
+    /// Whether some lists are not kept (TessellationOptions::lists_again).
+    bool makes_lists_again() const;
+    size_t subpatch_count() const { return static_cast<size_t>(stats_.subpatches); }
+    /// The primitive of a subpatch, and the number behind the last one of that.
+    uint32_t primitive_of(size_t subpatch) const;
+    size_t end_of_primitive(size_t subpatch) const;
+    GridShape shape_of(size_t subpatch) const;
     const TessellateStats& stats() const { return stats_; }
-    /// Memory of the lists of subpatches, edges and vertices; surfaces themselves are not counted.
+    /// Memory of the lists of subpatches, edges and vertices that are held now; surfaces themselves are not
+    /// counted.
     size_t bytes() const;
 
     /// Dices one subpatch, by its index in subpatches(): positions at all keys (camera space), normals,
@@ -112,6 +123,11 @@ class Tessellation {
 
   private:
     struct Impl;
+    /// A subpatch in its lists.
+    struct Listed;
+    Listed listed(size_t subpatch) const;
+    void number_subpatches(size_t most_bytes);
+
     std::unique_ptr<Impl> impl_;
     std::vector<SubpatchInfo> infos_;
     TessellateStats stats_;

@@ -10,23 +10,23 @@
 namespace trapeze {
 namespace {
 
-bool is_bounded(const SubpatchExtent& subpatch) {
-    return std::isfinite(subpatch.extent.absolute_max);
+bool is_bounded(const RunExtent& run) {
+    return std::isfinite(run.extent.absolute_max);
 }
 
 /// Adds bricks to a division.
 class BrickDivider {
   public:
-    BrickDivider(const std::vector<SubpatchExtent>& subpatches, size_t most_bytes, BrickDivision& division)
-        : subpatches_(subpatches), most_bytes_(most_bytes), division_(division) {}
+    BrickDivider(const std::vector<RunExtent>& runs, size_t most_bytes, BrickDivision& division)
+        : runs_(runs), most_bytes_(most_bytes), division_(division) {}
 
     /// All that are bounded.
     void divide_space() {
-        for (uint32_t i = 0; i < subpatches_.size(); ++i) {
-            if (!is_bounded(subpatches_[i])) continue;
-            const KeyBounds& box = subpatches_[i].extent.box.at[0];
+        for (uint32_t i = 0; i < runs_.size(); ++i) {
+            if (!is_bounded(runs_[i])) continue;
+            const KeyBounds& box = runs_[i].extent.box.at[0];
             SahItem& item = items_.emplace_back();
-            item.id = i, item.weight = std::max(subpatches_[i].bytes, 1u);
+            item.id = i, item.weight = std::max(runs_[i].bytes, 1u);
             for (int k = 0; k < 3; ++k) item.box.min[k] = box.low[k], item.box.max[k] = box.high[k];
         }
         if (items_.empty()) return;
@@ -45,13 +45,13 @@ class BrickDivider {
     void divide_rest() {
         std::vector<uint32_t> part;
         size_t bytes = 0;
-        for (uint32_t i = 0; i < subpatches_.size(); ++i) {
-            if (is_bounded(subpatches_[i])) continue;
-            if (!part.empty() && bytes + subpatches_[i].bytes > most_bytes_) {
+        for (uint32_t i = 0; i < runs_.size(); ++i) {
+            if (is_bounded(runs_[i])) continue;
+            if (!part.empty() && bytes + runs_[i].bytes > most_bytes_) {
                 add_brick(part);
                 part.clear(), bytes = 0;
             }
-            part.push_back(i), bytes += subpatches_[i].bytes;
+            part.push_back(i), bytes += runs_[i].bytes;
         }
         if (!part.empty()) add_brick(part);
     }
@@ -93,17 +93,17 @@ class BrickDivider {
     }
 
     void add_brick(std::vector<uint32_t>& part) {
-        std::ranges::sort(part, {}, [&](uint32_t i) { return subpatches_[i].subpatch; });
-        GridExtent extent = subpatches_[part.front()].extent;
+        std::ranges::sort(part, {}, [&](uint32_t i) { return runs_[i].run.first; });
+        GridExtent extent = runs_[part.front()].extent;
         for (const uint32_t i : part) {
-            extent = united(extent, subpatches_[i].extent);
-            division_.subpatches.push_back(subpatches_[i].subpatch);
+            extent = united(extent, runs_[i].extent);
+            division_.runs.push_back(runs_[i].run);
         }
         division_.extents.push_back(extent);
-        division_.first.push_back(static_cast<uint32_t>(division_.subpatches.size()));
+        division_.first.push_back(static_cast<uint32_t>(division_.runs.size()));
     }
 
-    const std::vector<SubpatchExtent>& subpatches_;
+    const std::vector<RunExtent>& runs_;
     const size_t most_bytes_;
     BrickDivision& division_;
     std::vector<SahItem> items_;
@@ -113,11 +113,11 @@ class BrickDivider {
 
 }  // namespace
 
-BrickDivision divide_into_bricks(const std::vector<SubpatchExtent>& subpatches, size_t most_bytes) {
+BrickDivision divide_into_bricks(const std::vector<RunExtent>& runs, size_t most_bytes) {
     BrickDivision division;
     division.first.push_back(0);
-    division.subpatches.reserve(subpatches.size());
-    BrickDivider divider(subpatches, most_bytes, division);
+    division.runs.reserve(runs.size());
+    BrickDivider divider(runs, most_bytes, division);
     divider.divide_space();
     divider.divide_rest();
     return division;

@@ -10,22 +10,27 @@
 
 namespace trapeze {
 
-/// What is known of a subpatch before its brick is made.
-struct SubpatchExtent {
-    uint32_t subpatch;
-    uint32_t bytes;  ///< of its grid
-    GridExtent extent;
+/// Subpatches of one primitive whose numbers follow each other.
+struct SubpatchRun {
+    uint32_t first = 0, count = 1;
+};
+
+/// What is known of subpatches before their brick is made.
+struct RunExtent {
+    SubpatchRun run;
+    uint32_t bytes;     ///< of their grids
+    GridExtent extent;  ///< of them all
 };
 
 struct BrickDivision {
-    std::vector<uint32_t> subpatches;  ///< brick after brick, each in the order of their numbers
-    std::vector<uint32_t> first;       ///< of a brick's subpatches; one more than there are bricks
-    std::vector<GridExtent> extents;   ///< of bricks
+    std::vector<SubpatchRun> runs;    ///< brick after brick, each in the order of their numbers
+    std::vector<uint32_t> first;      ///< of a brick's runs; one more than there are bricks
+    std::vector<GridExtent> extents;  ///< of bricks
 };
 
-/// Bricks of at most so many bytes, but for subpatches that alone have more: what the surface area heuristic
-/// keeps together longest. Those without bounds (SubpatchExtent::extent) have bricks of their own.
-/// Deterministic, whatever the number of threads and the order of the subpatches.
-BrickDivision divide_into_bricks(const std::vector<SubpatchExtent>& subpatches, size_t most_bytes);
+/// Bricks of at most so many bytes, but for runs that alone have more: what the surface area heuristic
+/// keeps together longest. Those without bounds (RunExtent::extent) have bricks of their own. Deterministic,
+/// whatever the number of threads and the order of the runs.
+BrickDivision divide_into_bricks(const std::vector<RunExtent>& runs, size_t most_bytes);
 
 }  // namespace trapeze

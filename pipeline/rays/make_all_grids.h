@@ -8,12 +8,12 @@
 
 namespace trapeze {
 
-/// What came of it, by subpatch.
+/// What came of it.
 struct AllRayGrids {
-    bool are_kept = true;           ///< all are in `grids`; else none is, and `extents` are known
-    std::vector<Grid> grids;        ///< in the order of subpatches
-    std::vector<GridArena> arenas;  ///< their memory
-    std::vector<SubpatchExtent> extents;
+    bool are_kept = true;            ///< all are in `grids`; else none is, and `extents` are known
+    std::vector<Grid> grids;         ///< in the order of subpatches
+    std::vector<GridArena> arenas;   ///< their memory
+    std::vector<RunExtent> extents;  ///< of all, in the order of subpatches
 };
 
 /// In parallel, alike for any number of threads. Grids are kept where all together take `most_bytes` at most.

@@ -103,9 +103,8 @@ void put(const RayDicer& dicer, const Grid& grid, size_t place_number, Surfels& 
 
 int dice_surfel(const RayDicer& dicer, uint64_t id, ShadingGrid& grid) {
     const MicropolygonId first = MicropolygonId::unpack(id & ((uint64_t{1} << kPlaceShift) - 1));
-    const SubpatchInfo& subpatch = dicer.tessellation().subpatches()[first.grid];
-    const GridShape shape = subpatch.shape;
-    uint32_t primitive = subpatch.primitive;
+    const GridShape shape = dicer.tessellation().shape_of(first.grid);
+    uint32_t primitive = dicer.tessellation().primitive_of(first.grid);
     if (const auto number = static_cast<size_t>(id >> kPlaceShift); number > 0)
         primitive = dicer.shared().primitive_at(dicer.shared().places[number - 1], primitive);
     const auto middle = [](int at, int end) {
@@ -119,7 +118,7 @@ std::optional<Surfels> make_surfels(const RayDicer& dicer, const std::function<b
                                     size_t most_bytes) {
     const std::vector<SubpatchInfo>& subpatches = dicer.tessellation().subpatches();
     const SharedObjects& shared = dicer.shared();
-    if (shared.places.size() >= kMostPlaces) return {};
+    if (shared.places.size() >= kMostPlaces || dicer.tessellation().makes_lists_again()) return {};
     const std::vector<PlaceRange> of_objects = places_of(shared);
     const auto places = [&](size_t subpatch) {
         const int object = shared.object_of(subpatches[subpatch].primitive);

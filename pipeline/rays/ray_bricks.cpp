@@ -24,63 +24,36 @@ struct RayBricks::Brick {
     size_t bytes() const { return grids.bytes() + tree->stats().tree_bytes; }
 };
 
-struct RayBricks::Slot {
-    std::mutex lock;  ///< of `brick`; held while it is made, so that it is made once
-    std::shared_ptr<const Brick> brick;
-    std::atomic<bool> used{false};  ///< since the hand came by
-};
-
-RayBricks::RayBricks(const RayDicer& dicer, const std::vector<SubpatchExtent>& subpatches, size_t most_bytes)
-    : dicer_(dicer), most_bytes_(most_bytes) {
+RayBricks::RayBricks(const RayDicer& dicer, const std::vector<RunExtent>& runs, size_t most_bytes)
+    : dicer_(dicer) {
     BrickDivision division =
-        divide_into_bricks(subpatches, std::clamp(most_bytes / kBricksInBudget, kFewBytes, kMostBytes));
-    subpatches_ = std::move(division.subpatches), first_ = std::move(division.first);
+        divide_into_bricks(runs, std::clamp(most_bytes / kBricksInBudget, kFewBytes, kMostBytes));
+    runs_ = std::move(division.runs), first_ = std::move(division.first);
     tree_ = std::make_unique<ExtentTree>(division.extents);
-    slots_ = std::vector<Slot>(division.extents.size());
+    bricks_.emplace(division.extents.size(), most_bytes);
 }
 
 RayBricks::~RayBricks() = default;
 
 std::shared_ptr<const RayBricks::Brick> RayBricks::brick(uint32_t number) const {
-    Slot& slot = slots_[number];
-    std::shared_ptr<const Brick> made;
-    {
-        const std::lock_guard hold(slot.lock);
-        slot.used.store(true, std::memory_order_relaxed);
-        if (slot.brick) return slot.brick;
+    return bricks_->get(number, [&] {
+        std::shared_ptr<const Brick> made;
         // Isolated: a thread that makes a brick must not take up other work, which might want this one.
         tbb::this_task_arena::isolate([&] { made = make(number); });
-        slot.brick = made;
-        bytes_.fetch_add(made->bytes());
-    }
-    made_.fetch_add(made->grids.micropolygon_count(), std::memory_order_relaxed);
-    if (bytes_.load() > most_bytes_) make_room();
-    return made;
+        made_.fetch_add(made->grids.micropolygon_count(), std::memory_order_relaxed);
+        return made;
+    });
 }
 
 std::shared_ptr<const RayBricks::Brick> RayBricks::make(uint32_t number) const {
     auto brick = std::make_shared<Brick>();
     GridArena arena(1);  // no more than grids need
     for (uint32_t i = first_[number]; i < first_[number + 1]; ++i)
-        brick->grids.grids.push_back(dicer_.make(subpatches_[i], arena));
+        for (uint32_t k = 0; k < runs_[i].count; ++k)
+            brick->grids.grids.push_back(dicer_.make(runs_[i].first + k, arena));
     brick->grids.arenas.push_back(std::move(arena));
     brick->tree = std::make_unique<WideTree>(brick->grids, RayReach());
     return brick;
-}
-
-/// Goes around the bricks and forgets those that no ray has met since last time, until the rest is within the
-/// budget; twice around at most. Those whose slots are held are left alone.
-void RayBricks::make_room() const {
-    const std::unique_lock hold(making_room_, std::try_to_lock);
-    if (!hold.owns_lock()) return;
-    for (size_t seen = 0; seen < 2 * slots_.size() && bytes_.load() > most_bytes_; ++seen) {
-        Slot& slot = slots_[hand_];
-        hand_ = (hand_ + 1) % slots_.size();
-        const std::unique_lock slot_hold(slot.lock, std::try_to_lock);
-        if (!slot_hold.owns_lock() || !slot.brick || slot.used.exchange(false)) continue;
-        bytes_.fetch_sub(slot.brick->bytes());
-        slot.brick.reset();
-    }
 }
 
 /// Meets a brick's grids: their nearest hit, if it is nearer than the one before.
@@ -117,11 +90,8 @@ std::vector<RayBricks::Meeting> RayBricks::meetings(std::span<const RangedRay> r
         TraceRay ray = TraceRay::turned(axis_ray(rays[r].ray), rays[r].range);
         tree_->visit(ray, [&](uint32_t number, float depth) { meetings.push_back({number, r, depth}); });
     }
-    std::vector<bool> is_there(slots_.size());
-    for (size_t i = 0; i < slots_.size(); ++i) {
-        const std::lock_guard hold(slots_[i].lock);
-        is_there[i] = slots_[i].brick != nullptr;
-    }
+    std::vector<bool> is_there(bricks_->size());
+    for (size_t i = 0; i < is_there.size(); ++i) is_there[i] = bricks_->has(i);
     std::ranges::sort(meetings, {}, [&](const Meeting& meeting) {
         return std::tuple(!is_there[meeting.brick], meeting.brick, meeting.ray);
     });
@@ -165,8 +135,8 @@ void RayBricks::in_the_way(std::span<const RangedRay> rays, std::span<InTheWay> 
 }
 
 size_t RayBricks::bytes() const {
-    return sizeof(*this) + (subpatches_.capacity() + first_.capacity()) * sizeof(uint32_t) + tree_->bytes() +
-           slots_.capacity() * sizeof(Slot) + bytes_.load();
+    return sizeof(*this) + runs_.capacity() * sizeof(SubpatchRun) + first_.capacity() * sizeof(uint32_t) +
+           tree_->bytes() + bricks_->bytes();
 }
 
 }  // namespace trapeze

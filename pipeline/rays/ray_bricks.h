@@ -5,12 +5,13 @@
 #include <atomic>
 #include <functional>
 #include <memory>
-#include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "accel/wide/extent_tree.h"
 #include "accel/wide/wide_tree.h"
+#include "core/memory/clock_cache.h"
 #include "pipeline/rays/brick_division.h"
 #include "pipeline/rays/ray_dicer.h"
 #include "pipeline/rays/ray_grids.h"
@@ -23,9 +24,9 @@ using TakeHit = std::function<void(size_t, const RayGridHit&)>;
 
 class RayBricks final : public RayGrids {
   public:
-    /// `subpatches` are all that these rays may meet, at least one, in any order. Bricks that are kept take
+    /// `runs` are all that these rays may meet, at least one, in any order. Bricks that are kept take
     /// `most_bytes`; those in use may be more. The dicer outlives this.
-    RayBricks(const RayDicer& dicer, const std::vector<SubpatchExtent>& subpatches, size_t most_bytes);
+    RayBricks(const RayDicer& dicer, const std::vector<RunExtent>& runs, size_t most_bytes);
     ~RayBricks() override;
 
     std::optional<RayGridHit> closest(const RangedRay& ray) const override;
@@ -39,8 +40,6 @@ class RayBricks final : public RayGrids {
   private:
     /// Made and traced, never changed.
     struct Brick;
-    /// A brick's place: there or not.
-    struct Slot;
 
     /// A ray that comes to a brick's bounds at a depth.
     struct Meeting {
@@ -54,18 +53,13 @@ class RayBricks final : public RayGrids {
     void for_each_meeting(std::span<const RangedRay> rays, const Wants& wants, const Meet& meet) const;
     std::shared_ptr<const Brick> brick(uint32_t number) const;
     std::shared_ptr<const Brick> make(uint32_t number) const;
-    void make_room() const;
 
     const RayDicer& dicer_;
-    const size_t most_bytes_;
-    std::vector<uint32_t> subpatches_;  ///< brick after brick, each in the order of their numbers
-    std::vector<uint32_t> first_;       ///< of a brick's subpatches; one more than there are bricks
+    std::vector<SubpatchRun> runs_;  ///< brick after brick, each in the order of their numbers
+    std::vector<uint32_t> first_;    ///< of a brick's runs; one more than there are bricks
     std::unique_ptr<ExtentTree> tree_;
-    mutable std::vector<Slot> slots_;
-    mutable std::atomic<size_t> bytes_{0};  ///< of bricks that are kept
+    mutable std::optional<ClockCache<Brick>> bricks_;  ///< by number
     mutable std::atomic<uint64_t> made_{0};
-    mutable std::mutex making_room_;
-    mutable size_t hand_ = 0;  ///< the slot that is looked at next when room is made
 };
 
 }  // namespace trapeze

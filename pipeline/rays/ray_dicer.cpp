@@ -60,7 +60,7 @@ TessellationOptions RayDicer::how_to_split(size_t most_bytes) const {
     options.is_left_whole = [this](uint32_t number) {
         return number < shared().is_shared.size() && shared().is_shared[number];
     };
-    options.most_bytes = most_bytes, options.seen_by = SeenBy::Rays;
+    options.most_bytes = most_bytes, options.lists_again = true, options.seen_by = SeenBy::Rays;
     return options;
 }
 

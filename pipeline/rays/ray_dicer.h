@@ -18,8 +18,8 @@ namespace trapeze {
 class RayDicer {
   public:
     /// Splits the scene for rays. It moves where rays ask for that (RayAttributes::sample_motion), without
-    /// the motion of the camera; else it is as at shutter open. Primitives that take more than `most_bytes`
-    /// to list are left out, with an error. The context's scene and `shading` outlive this.
+    /// the motion of the camera; else it is as at shutter open. Lists of subpatches take `most_bytes`; what
+    /// is more is listed again when it is asked for. The context's scene and `shading` outlive this.
     RayDicer(const RenderContext& context, const Shading& shading, size_t most_bytes);
     /// Of the same scene, with sides of so many pixels at least.
     RayDicer(const RayDicer& finest, float least_side, size_t most_bytes);

@@ -15,8 +15,8 @@ constexpr double kGridShare = 0.8;
 /// What some kinds of rays meet of one space, on its way into a GroupedRayGrids.
 struct Gathered {
     Grids grids;
-    std::vector<SubpatchExtent> extents;  ///< of grids that are not kept
-    size_t bytes = 0;                     ///< of these
+    std::vector<RunExtent> extents;  ///< of grids that are not kept
+    size_t bytes = 0;                ///< of these
 };
 
 /// By kinds of rays.
@@ -58,19 +58,19 @@ void RayLevel::make_grids(size_t most_bytes) {
     std::vector<GatheredGroups> gathered(1 + shared.objects.size());  // that of camera space first
     std::vector<std::optional<GridExtent>> extents(shared.objects.size());
     size_t all_bytes = 0;
-    for (size_t i = 0; i < dicer_.tessellation().subpatches().size(); ++i) {
-        const uint32_t primitive = dicer_.tessellation().subpatches()[i].primitive;
+    const auto group_of = [&](size_t subpatch, const auto& extent) -> Gathered& {
+        const uint32_t primitive = dicer_.tessellation().primitive_of(subpatch);
         const int object = shared.object_of(primitive);
-        Gathered& group = gathered[static_cast<size_t>(object + 1)]
-                                  [GroupedRayGrids::mask_of(dicer_.attributes(primitive).rays)];
-        if (all.are_kept)
-            group.grids.grids.push_back(all.grids[i]);
-        else
-            group.extents.push_back(all.extents[i]), group.bytes += all.extents[i].bytes;
-        all_bytes += all.are_kept ? 0 : all.extents[i].bytes;
-        if (object >= 0)
-            unite(extents[static_cast<size_t>(object)],
-                  all.are_kept ? extent_of(all.grids[i]) : all.extents[i].extent);
+        if (object >= 0) unite(extents[static_cast<size_t>(object)], extent());
+        return gathered[static_cast<size_t>(object + 1)]
+                       [GroupedRayGrids::mask_of(dicer_.attributes(primitive).rays)];
+    };
+    for (size_t i = 0; i < all.grids.size(); ++i)
+        group_of(i, [&] { return extent_of(all.grids[i]); }).grids.grids.push_back(all.grids[i]);
+    for (const RunExtent& known : all.extents) {
+        Gathered& group = group_of(known.run.first, [&] { return known.extent; });
+        group.extents.push_back(known), group.bytes += known.bytes;
+        all_bytes += known.bytes;
     }
     objects_.resize(shared.objects.size());
     for (size_t space = 0; space < gathered.size(); ++space) {
@@ -231,7 +231,7 @@ void RayLevel::blocked(std::span<const RaySegment> rays, RayKind kind,
 
 int RayLevel::dice(const RaySurfaceHit& hit, ShadingGrid& grid) const {
     const MicropolygonId id = MicropolygonId::unpack(hit.place.id);
-    const GridShape shape = dicer_.tessellation().subpatches()[id.grid].shape;
+    const GridShape shape = dicer_.tessellation().shape_of(id.grid);
     const V2f at((static_cast<float>(id.u) + hit.at.x) / static_cast<float>(shape.nu),
                  (static_cast<float>(id.v) + hit.at.y) / static_cast<float>(shape.nv));
     return dicer_.make_point({id.grid, at, hit.primitive}, grid);

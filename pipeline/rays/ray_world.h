@@ -19,8 +19,9 @@ namespace trapeze {
 class RayWorld final : public RayScene {
   public:
     /// Dices and displaces all that rays see, as it is at shutter open, in parallel and alike for any number
-    /// of threads, and keeps it where that takes half of `most_bytes` at most. Primitives that take more than
-    /// `most_bytes` to list are left out, with an error. The context's scene and `shading` outlive this.
+    /// of threads, and keeps it where that takes half of `most_bytes` at most. Lists of subpatches take as
+    /// many bytes again; what is more is listed again when it is asked for. The context's scene and `shading`
+    /// outlive this.
     RayWorld(const RenderContext& context, const Shading& shading, size_t most_bytes);
     ~RayWorld() override;
 

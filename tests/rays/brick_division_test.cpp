@@ -10,18 +10,18 @@
 namespace trapeze {
 namespace {
 
-SubpatchExtent subpatch(uint32_t number, const V3f& middle, uint32_t bytes) {
-    SubpatchExtent known{number, bytes, {}};
+RunExtent subpatch(uint32_t number, const V3f& middle, uint32_t bytes) {
+    RunExtent known{{number, 1}, bytes, {}};
     for (KeyBounds& bounds : known.extent.box.at)
         for (int k = 0; k < 3; ++k) bounds.low[k] = middle[k] - .05f, bounds.high[k] = middle[k] + .05f;
     known.extent.absolute_max = 1;
     return known;
 }
 
-std::vector<SubpatchExtent> scattered(uint32_t count) {
+std::vector<RunExtent> scattered(uint32_t count) {
     std::minstd_rand bits;
     std::uniform_real_distribution<float> number(-1, 1);
-    std::vector<SubpatchExtent> all;
+    std::vector<RunExtent> all;
     for (uint32_t i = 0; i < count; ++i)
         all.push_back(subpatch(i, V3f(number(bits), number(bits), number(bits)), 100 + i % 7 * 50));
     return all;
@@ -35,21 +35,21 @@ double volume(const GridExtent& extent) {
 }
 
 TEST(BrickDivision, EachSubpatchIsInOneBrickThatHoldsItAndIsNotTooLarge) {
-    std::vector<SubpatchExtent> all = scattered(3000);
+    std::vector<RunExtent> all = scattered(3000);
     all[5].bytes = 100000;  // more than a brick
     all[7].extent.absolute_max = all[9].extent.absolute_max = std::numeric_limits<float>::infinity();
     const BrickDivision bricks = divide_into_bricks(all, 10000);
     ASSERT_EQ(bricks.first.size(), bricks.extents.size() + 1);
-    ASSERT_EQ(bricks.subpatches.size(), all.size());
+    ASSERT_EQ(bricks.runs.size(), all.size());
     std::vector<int> times(all.size());
     for (size_t b = 0; b < bricks.extents.size(); ++b) {
         size_t bytes = 0;
         const uint32_t first = bricks.first[b], end = bricks.first[b + 1];
         ASSERT_LT(first, end);
         for (uint32_t i = first; i < end; ++i) {
-            const SubpatchExtent& held = all[bricks.subpatches[i]];
-            ++times[held.subpatch], bytes += held.bytes;
-            EXPECT_TRUE(i == first || bricks.subpatches[i - 1] < bricks.subpatches[i]);
+            const RunExtent& held = all[bricks.runs[i].first];
+            ++times[held.run.first], bytes += held.bytes;
+            EXPECT_TRUE(i == first || bricks.runs[i - 1].first < bricks.runs[i].first);
             EXPECT_EQ(std::isfinite(bricks.extents[b].absolute_max), std::isfinite(held.extent.absolute_max));
             for (int k = 0; k < 3; ++k) {
                 EXPECT_LE(bricks.extents[b].box.at[1].low[k], held.extent.box.at[1].low[k]);
@@ -63,7 +63,7 @@ TEST(BrickDivision, EachSubpatchIsInOneBrickThatHoldsItAndIsNotTooLarge) {
 
 /// Things far away take nothing from how finely things nearby are told apart.
 TEST(BrickDivision, BricksAreCompactWhateverElseThereIs) {
-    std::vector<SubpatchExtent> all = scattered(4000);
+    std::vector<RunExtent> all = scattered(4000);
     for (uint32_t i = 0; i < 100; ++i)
         all.push_back(subpatch(4000 + i, V3f(1e6f * static_cast<float>(i % 3), 1e6f, 1e5f), 200));
     const BrickDivision bricks = divide_into_bricks(all, 10000);
@@ -75,7 +75,7 @@ TEST(BrickDivision, BricksAreCompactWhateverElseThereIs) {
 }
 
 TEST(BrickDivision, TheOrderOfSubpatchesChangesNothing) {
-    std::vector<SubpatchExtent> all = scattered(2000);
+    std::vector<RunExtent> all = scattered(2000);
     const BrickDivision bricks = divide_into_bricks(all, 5000);
     std::shuffle(all.begin(), all.end(), std::minstd_rand());
     const BrickDivision again = divide_into_bricks(all, 5000);
@@ -83,8 +83,10 @@ TEST(BrickDivision, TheOrderOfSubpatchesChangesNothing) {
     for (const BrickDivision* division : {&bricks, &again}) {
         auto& part = parts[division == &again];
         for (size_t b = 0; b + 1 < division->first.size(); ++b)
-            part.emplace_back(division->subpatches.begin() + division->first[b],
-                              division->subpatches.begin() + division->first[b + 1]);
+            for (uint32_t i = division->first[b], first = i; i < division->first[b + 1]; ++i) {
+                if (i == first) part.emplace_back();
+                part.back().push_back(division->runs[i].first);
+            }
         std::ranges::sort(part);
     }
     EXPECT_EQ(parts[0], parts[1]);
