@@ -140,14 +140,18 @@ struct RayLevel::Meeting {
     float distance;
 };
 
-/// All meetings of rays and places, place by place, and so object by object.
-std::vector<RayLevel::Meeting> RayLevel::meetings(std::span<const RaySegment> rays) const {
+/// All meetings of places and rays, but those that nobody wants: place by place, and so object by object.
+template <class Wants>
+std::vector<RayLevel::Meeting> RayLevel::meetings(std::span<const RaySegment> rays,
+                                                  const Wants& wants) const {
     std::vector<Meeting> meetings;
-    for (uint32_t i = 0; i < rays.size(); ++i)
+    for (uint32_t i = 0; i < rays.size(); ++i) {
+        if (!wants({.place = 0, .ray = i, .distance = rays[i].min})) continue;
         places_->visit(rays[i], [&](uint32_t number, float distance, const PlacedRay&) {
             meetings.push_back({number, i, distance});
             return rays[i].max;
         });
+    }
     std::ranges::sort(meetings, {},
                       [](const Meeting& meeting) { return std::tuple(meeting.place, meeting.ray); });
     return meetings;
@@ -164,7 +168,7 @@ void RayLevel::for_each_object(std::span<const RaySegment> rays, const Wants& wa
         if (!wanted.empty()) meet(objects_[places[wanted.front().place].object], wanted, placed);
         wanted.clear(), placed.clear();
     };
-    for (const Meeting& meeting : meetings(rays)) {
+    for (const Meeting& meeting : meetings(rays, wants)) {
         const ObjectPlace& place = places[meeting.place];
         if (wanted.size() >= rays.size() ||
             (!wanted.empty() && places[wanted.front().place].object != place.object))

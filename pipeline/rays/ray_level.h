@@ -54,7 +54,8 @@ class RayLevel {
 
   private:
     struct Meeting;
-    std::vector<Meeting> meetings(std::span<const RaySegment> rays) const;
+    template <class Wants>
+    std::vector<Meeting> meetings(std::span<const RaySegment> rays, const Wants& wants) const;
     template <class Wants, class Meet>
     void for_each_object(std::span<const RaySegment> rays, const Wants& wants, const Meet& meet) const;
 
