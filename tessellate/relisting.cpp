@@ -10,8 +10,8 @@ namespace {
 /// A block ends at so many subpatches, or faces. Small ones are soon made again; each has a place to be kept.
 constexpr uint32_t kSubpatchesOfBlock = 128, kFacesOfBlock = 512;
 constexpr size_t kCountedPerTask = 64, kCountedAtOnce = 4096;  // faces
-/// About what a subpatch takes, with the edge that was made beside it.
-constexpr size_t kBytesOfSubpatch = sizeof(Subpatch) + sizeof(EdgeLine) + 4 * sizeof(EdgeInterval);
+/// The least that a subpatch takes: what is too much by this is never listed as a whole.
+constexpr size_t kBytesOfSubpatch = sizeof(Subpatch);
 
 }  // namespace
 

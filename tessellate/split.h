@@ -79,7 +79,7 @@ struct FaceParts {
 
 /// Cuts faces first_face .. first_face + found.size() - 1 into parts of `most_subpatches` at most; into one,
 /// whatever that has, where a face is limited by SplitContext::most_parts_of_face. The context has no
-/// estimates. Takes little memory.
+/// estimates, which change nothing but bounds on the screen. Takes little memory.
 void find_parts(const SplitContext& context, int first_face, uint32_t most_subpatches,
                 std::span<FaceParts> found);
 

@@ -24,9 +24,14 @@ namespace {
 constexpr size_t kPrimitivesAtOnce = 1024;
 /// Bytes that grids of instances in object space may take.
 constexpr size_t kSharedGridBytes = size_t{256} << 20;
-/// Of the most bytes, what whole lists may take where others are made again, and what those that have been
-/// made again may; the rest is for what is kept of the latter.
-constexpr double kWholeShare = 0.5, kAgainShare = 0.25;
+/// Where lists are made again: of the most bytes, those for edges and vertices, for lists that are kept as a
+/// whole, and for blocks of the others. What is left out follows from the first alone, so that it does not
+/// depend on which lists are kept, as threads may have it.
+constexpr double kEdgeShare = 0.75, kWholeShare = 0.125, kAgainShare = 0.125;
+
+size_t share_of(size_t bytes, double share) {
+    return static_cast<size_t>(share * static_cast<double>(bytes));
+}
 
 /// Shapes shared by several primitives (instances) make one surface. What else a surface reads of its
 /// primitive is part of the key.
@@ -111,36 +116,6 @@ void make_surfaces(const RenderContext& context, const FindDepthHeight& depth_he
     for (size_t i = 0; i < primitives.size(); ++i) primitives[i].surface = *slots[i];
 }
 
-/// Bytes of lists, as they are counted in the primitives' order, which does not depend on the threads.
-class ListBudget {
-  public:
-    explicit ListBudget(const TessellationOptions& options)
-        : lists_again_(options.lists_again),
-          most_whole_(share(options, kWholeShare)),
-          most_(share(options, 1 - kAgainShare)) {}
-
-    size_t most_whole() const { return most_whole_; }
-    /// Takes what a primitive has listed as a whole, if there is room.
-    bool take_whole(const TessellatedPrimitive& primitive) { return take(primitive.bytes(), most_whole_); }
-    /// Takes what is kept of one of which lists are made again.
-    bool take_rest(const TessellatedPrimitive& primitive) { return take(primitive.bytes(), most_); }
-
-  private:
-    size_t share(const TessellationOptions& options, double part) const {
-        if (!lists_again_) return options.most_bytes;
-        return static_cast<size_t>(part * static_cast<double>(options.most_bytes));
-    }
-    bool take(size_t bytes, size_t most) {
-        if (bytes > most - std::min(most, bytes_)) return false;
-        bytes_ += bytes;
-        return true;
-    }
-
-    const bool lists_again_;
-    const size_t most_whole_, most_;
-    size_t bytes_ = 0;
-};
-
 void tell_too_much(const RenderContext& context, const Primitive& first, size_t most_bytes) {
     context.diagnostics->error(
         first.location, fmt::format("the grids into which primitives are split take more than {} MiB to "
@@ -150,40 +125,43 @@ void tell_too_much(const RenderContext& context, const Primitive& first, size_t 
 
 }  // namespace
 
-/// All primitives, or those before the first with which the bytes are too many.
+/// All primitives, or those before the first with which the bytes are too many: the same ones however many
+/// threads there are, because bytes are counted in the primitives' order.
 void Tessellation::Impl::tessellate(const RenderContext& context, const TessellationOptions& options) {
-    ListBudget budget(options);
+    const bool lists_again = options.lists_again;
+    const size_t most = lists_again ? share_of(options.most_bytes, kEdgeShare) : options.most_bytes;
+    const size_t most_whole = lists_again ? share_of(options.most_bytes, kWholeShare) : options.most_bytes;
     std::atomic<size_t> listed{0};
-    const TessellatePlan plan{context, metric, raster, options, budget.most_whole(), listed};
-    const auto most_of_block = static_cast<size_t>(kAgainShare * static_cast<double>(options.most_bytes));
+    const TessellatePlan plan{context, metric, raster, options, most_whole, listed};
     const auto primitive = [&](size_t i) -> const Primitive& { return context.scene->primitives[i]; };
-    for (size_t first = 0; first < primitives.size(); first += kPrimitivesAtOnce) {
+    size_t bytes = 0, whole = 0;
+    bool is_full = false;
+    for (size_t first = 0; first < primitives.size() && !is_full; first += kPrimitivesAtOnce) {
         const size_t end = std::min(first + kPrimitivesAtOnce, primitives.size());
         tbb::parallel_for(first, end,
                           [&](size_t i) { tessellate_primitive(plan, primitive(i), primitives[i]); });
         std::vector<size_t> counted;
-        for (size_t i = first; i < end; ++i) {
+        for (size_t i = first; i < end && !is_full; ++i) {
             TessellatedPrimitive& own = primitives[i];
-            if (own.is_listed && budget.take_whole(own)) {
-                own.relisting.reset();
-            } else if (own.relisting) {
-                own.splits = {};
-                counted.push_back(i);
-            } else if (own.placed) {
+            const size_t lists = own.splits.bytes(), taken = own.edge_bytes() + (lists_again ? 0 : lists);
+            if (taken > most - bytes) {
+                is_full = true;
                 tell_too_much(context, primitive(i), options.most_bytes);
-                for (; i < end; ++i) primitives[i].leave_out();
-                return;
+                for (size_t left = i; left < end; ++left) primitives[left].leave_out();
+                continue;
             }
+            bytes += taken;
+            if (!own.relisting) continue;
+            if (own.is_listed && lists <= most_whole - whole)
+                whole += lists, own.relisting.reset();
+            else
+                own.splits = {}, counted.push_back(i);
         }
+        listed = whole;
         tbb::parallel_for(size_t{0}, counted.size(), [&](size_t k) {
-            count_instead_of_listing(plan, primitive(counted[k]), most_of_block, primitives[counted[k]]);
+            count_instead_of_listing(plan, primitive(counted[k]), share_of(options.most_bytes, kAgainShare),
+                                     primitives[counted[k]]);
         });
-        for (const size_t i : counted) {
-            if (budget.take_rest(primitives[i])) continue;
-            tell_too_much(context, primitive(i), options.most_bytes);
-            for (size_t left = i; left < end; ++left) primitives[left].leave_out();
-            return;
-        }
     }
 }
 
@@ -229,10 +207,13 @@ void Tessellation::number_subpatches(size_t most_bytes) {
         stats_.culled_subpatches += p.relisting ? p.relisting->culled_count() : p.splits.culled;
         stats_.micropolygons += p.relisting ? p.relisting->micropolygon_count() : 0;
     }
-    if (blocks > 0)
-        impl_->again.emplace(blocks, static_cast<size_t>(kAgainShare * static_cast<double>(most_bytes)));
-    else
+    if (blocks > 0) {
+        const size_t most = share_of(most_bytes, kAgainShare),
+                     places = ClockCache<Splits>::place_bytes(blocks);
+        impl_->again.emplace(blocks, most - std::min(most, places));
+    } else {
         infos_.reserve(count);
+    }
     for (size_t i = 0; i < primitives.size(); ++i) {
         TessellatedPrimitive& p = primitives[i];
         for (size_t s = 0; s < p.splits.subpatches.size(); ++s) {

@@ -30,7 +30,7 @@ struct SubpatchInfo {
 
 /// A place of a subpatch, in its own unit square. Where a ray of a shader has hit, mostly.
 struct SubpatchPoint {
-    size_t subpatch = 0;  ///< index in Tessellation::subpatches()
+    size_t subpatch = 0;  ///< its number in a Tessellation
     V2f at{0, 0};
     /// Whose place and attributes it has, by index in the scene: of the same shape as the subpatch's, and
     /// seen as that is. Nothing: the subpatch's own.
@@ -60,7 +60,7 @@ struct TessellationOptions {
     /// For lists of subpatches, edges and vertices: of all primitives together, and of each.
     size_t most_bytes = std::numeric_limits<size_t>::max();
     /// Lists of subpatches that are too much are made again, a part at a time, when one is asked for; only
-    /// lists of edges and vertices, which take less than the surfaces themselves, have to fit.
+    /// lists of edges and vertices, which take about what the surfaces do, have to fit into three quarters.
     bool lists_again = false;
     OfPrimitive is_displaced;   ///< though it has no displacement shader
     OfPrimitive is_left_whole;  ///< not split: it is there for SubpatchPoint::primitive alone
@@ -110,7 +110,7 @@ class Tessellation {
     /// counted.
     size_t bytes() const;
 
-    /// Dices one subpatch, by its index in subpatches(): positions at all keys (camera space), normals,
+    /// Dices one subpatch, by its number: positions at all keys (camera space), normals,
     /// derivatives, variables at shutter open; Ci and Oi are sized but not set. Thread-safe with a scratch
     /// per thread. For hits alone normals, derivatives and variables but Cs and Os are sized, not set.
     void dice(size_t subpatch, ShadingGrid& grid, DiceScratch& scratch,

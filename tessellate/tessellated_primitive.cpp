@@ -163,7 +163,7 @@ void tessellate_primitive(const TessellatePlan& plan, const Primitive& primitive
         out.is_listed = listed < most_listed;
         if (!out.is_listed) return;
     }
-    std::optional<Splits> splits = split_all(split, context, options.most_bytes);
+    std::optional<Splits> splits = split_all(split, context, most_listed);
     out.is_listed = splits.has_value();
     if (splits) {
         out.splits = std::move(*splits);

@@ -37,10 +37,8 @@ struct TessellatedPrimitive {
     size_t subpatch_count() const {
         return relisting ? relisting->subpatch_count() : splits.subpatches.size();
     }
-    size_t bytes() const {
-        return vertices.bytes() + surface_edges.bytes() + splits.bytes() +
-               (relisting ? relisting->bytes() : 0);
-    }
+    size_t edge_bytes() const { return vertices.bytes() + surface_edges.bytes(); }
+    size_t bytes() const { return edge_bytes() + splits.bytes() + (relisting ? relisting->bytes() : 0); }
     /// Frees all; a primitive without subpatches stays in its place, so that indices hold.
     void leave_out() {
         placed.reset();

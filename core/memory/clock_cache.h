@@ -40,7 +40,8 @@ class ClockCache {
         return slots_[number].thing != nullptr;
     }
     /// Of all that is kept, and of the places.
-    size_t bytes() const { return slots_.size() * sizeof(Slot) + bytes_.load(); }
+    size_t bytes() const { return place_bytes(slots_.size()) + bytes_.load(); }
+    static constexpr size_t place_bytes(size_t count) { return count * sizeof(Slot); }
 
   private:
     struct Slot {

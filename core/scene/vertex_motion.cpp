@@ -9,9 +9,9 @@
 namespace trapeze {
 namespace {
 
-/// The tangents of a grid at a vertex as its vertices have them:
-/// from the vertex before to the one behind along u and v, at the grid's sides from or to the vertex itself:
-/// off the surface's own by half of what it turns along a micropolygon's side, at sides by all of it.
+/// The tangents of a grid at a vertex as its vertices have them: from the vertex before to the one behind
+/// along u and v, at the grid's sides from or to the vertex itself. They are off the surface's own by half of
+/// what it turns along a micropolygon's side, at sides by all of it.
 class GridTangents {
   public:
     /// `place(vertex)`: where a vertex is.

@@ -13,7 +13,7 @@ namespace trapeze {
 /// Of a grid whose primitive is set; it outlives this. Camera space at shutter open.
 class VertexMotion {
   public:
-    /// Of nothing that moves: none of the calls below may follow but way().
+    /// Of what does not deform and has no place: start() must not follow.
     VertexMotion() = default;
     /// `held`: Scene::held_from_camera, where positions at the keys still hold the camera's own motion; else
     /// empty.

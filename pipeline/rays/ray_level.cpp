@@ -72,6 +72,7 @@ void RayLevel::make_grids(size_t most_bytes) {
         group.extents.push_back(known), group.bytes += known.bytes;
         all_bytes += known.bytes;
     }
+    all.extents = {};
     objects_.resize(shared.objects.size());
     for (size_t space = 0; space < gathered.size(); ++space) {
         GroupedRayGrids& grids = space == 0 ? own_ : objects_[space - 1];
@@ -85,6 +86,7 @@ void RayLevel::make_grids(size_t most_bytes) {
             grids.set(mask, std::make_unique<RayBricks>(
                                 dicer_, group.extents,
                                 static_cast<size_t>(share * static_cast<double>(most_bytes))));
+            group.extents = {};
         }
     }
     if (!shared.places.empty()) places_.emplace(shared.places, extents);

@@ -52,7 +52,8 @@ void AreaSamples::start(const vm::Context& surroundings, size_t lanes, const Pla
     }
 }
 
-/// Of what deforms; what else turns does so with its space. What a ray has hit knows no motion of the camera.
+/// Of what deforms; what else turns does so with its space. What a ray has hit knows no motion of the camera,
+/// here as in turn_of().
 VertexMotion AreaSamples::motion_of(const vm::GridSpan& span, size_t vertex) const {
     if (!span.grid || !has_times(*span.grid) || span.grid->primitive->shape_keys.size() <= 1) return {};
     return {*span.grid, vertex, span.grid->hit_vertex >= 0 ? std::span<const M44f>() : held_};
