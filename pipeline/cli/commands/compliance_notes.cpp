@@ -95,8 +95,9 @@ constexpr Capability kCapabilities[] = {
      "trace(), transmission() and visibility() meet all that Attribute \"visibility\" lets their rays see, at "
      "shutter open or, with Attribute \"trace\" \"samplemotion\", while it is open; gather() tells of hits. They are shaded with their own derivatives, and filtered over the width of the ray (differentials). The geometry is diced as "
      "finely as a pixel is at its distance from the eye. Solids are cut, clipping planes cut the camera's view alone. A "
-     "ray looks through at most 4096 transparent surfaces. Lists of what rays meet have to fit the memory, a twentieth "
-     "to a fortieth of its grids: what does not is left out, with an error."},
+     "ray looks through at most 4096 transparent surfaces. The geometry may be larger than the memory, but for the edges "
+     "and vertices of its surfaces: where they do not fit into three quarters of it, what does not is left out, with an "
+     "error."},
     {"Global Illumination", "supported with limits",
      "occlusion() and indirectdiffuse() send rays, or ask point clouds (\"pointbased\"); no photon maps. With point clouds "
      "walls of one layer leak: of a closed room's light 8 % with \"maxsolidangle\" 0.1, which is the default, 5 % with "
