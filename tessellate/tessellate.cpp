@@ -70,7 +70,7 @@ struct Tessellation::Impl {
     std::vector<TessellatedPrimitive> primitives;
     mutable std::optional<ClockCache<Splits>> again;  ///< blocks of lists that are made again; or nothing
 
-    /// What primitives are listed within.
+    /// Places and lists all primitives, within the most bytes.
     void tessellate(const RenderContext& context, const TessellationOptions& options);
 
   private:
