@@ -68,12 +68,6 @@ HWY_INLINE V max_of(V a, V b) {
     return hn::IfThenElse(hn::Lt(a, b), b, a);
 }
 
-/// Where both masks are true, or neither is: edge functions of the same sign.
-template <class M>
-HWY_INLINE M alike(M a, M b) {
-    return hn::Not(hn::Xor(a, b));
-}
-
 }  // namespace predicate_lanes
 
 /// A quad whose corners are moved along the lanes' rays to the plane of the rays' origins, and the corners'
@@ -133,10 +127,12 @@ HWY_INLINE WeightLanes<V> weight_lanes(D d, const QuadLanes<V>& q, const SideLan
     using M = hn::Mask<D>;
     const V zero = hn::Zero(d);
     const V c_diagonal = p::edge(q.a00, q.b00, q.a11, q.b11);
-    const M bottom_below = hn::Lt(c.c_bottom, zero);
-    const M lower = hn::And(p::alike(bottom_below, hn::Lt(c.c_right, zero)),
-                            hn::Xor(bottom_below, hn::Lt(c_diagonal, zero)));
-    return {hn::IfThenElse(lower, c.c_right, c.c_top), hn::IfThenElse(lower, hn::Neg(c_diagonal), zero),
+    const V against = hn::Neg(c_diagonal);
+    const V lowest = p::min_of(p::min_of(c.c_bottom, c.c_right), against);
+    const V highest = p::max_of(p::max_of(c.c_bottom, c.c_right), against);
+    const M agree = hn::Xor(hn::Lt(lowest, zero), hn::Gt(highest, zero));
+    const M lower = hn::Or(agree, hn::Eq(hn::Add(c.c_top, hn::Add(c_diagonal, c.c_left)), zero));
+    return {hn::IfThenElse(lower, c.c_right, c.c_top), hn::IfThenElse(lower, against, zero),
             hn::IfThenElse(lower, zero, c_diagonal), hn::IfThenElse(lower, c.c_bottom, c.c_left)};
 }
 

@@ -115,10 +115,14 @@ inline bool faces(const Edges& e, Facing facing) {
 }
 
 /// Unnormalised weights on the triangle that holds the point: 00-10-11 when its three edge functions agree,
-/// else 00-11-01.
+/// those that are 0 with any, or when 00-11-01 has no area; else 00-11-01. Which side of the diagonal a point
+/// is on may round otherwise than whether it is inside: a triangle without area may not be taken for that.
 inline QuadWeights weights(const Edges& e) {
     const float c_diagonal = edge(e.a[k00], e.b[k00], e.a[k11], e.b[k11]);  // 00->11
-    const bool lower = (e.c_bottom < 0) == (e.c_right < 0) && (e.c_bottom < 0) != (c_diagonal < 0);
+    const float lowest = std::min(std::min(e.c_bottom, e.c_right), -c_diagonal);
+    const float highest = std::max(std::max(e.c_bottom, e.c_right), -c_diagonal);
+    const bool agree = (lowest < 0) != (highest > 0);
+    const bool lower = agree || e.c_top + (c_diagonal + e.c_left) == 0;
     if (lower) return {{e.c_right, -c_diagonal, 0, e.c_bottom}};
     return {{e.c_top, 0, c_diagonal, e.c_left}};
 }

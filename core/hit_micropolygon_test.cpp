@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -42,6 +43,65 @@ TEST(HitMicropolygon, FacingIsTheSignOfTheTurn) {
     const AxisRay mirrored{-0.3f, 0.6f, 0, 0, 0, 0};
     EXPECT_FALSE(hit_micropolygon(mirrored, q, Facing::PositiveOnly, &depth));
     EXPECT_TRUE(hit_micropolygon(mirrored, q, Facing::NegativeOnly, &depth));
+}
+
+/// Of a plane z = 2 + x + 2 y, as a ray along z meets it.
+Quad on_plane(const std::array<V2f, 4>& corners) {
+    Quad q;
+    for (size_t i = 0; i < 4; ++i)
+        q.x[i] = corners[i].x, q.y[i] = corners[i].y, q.z[i] = 2 + corners[i].x + 2 * corners[i].y;
+    return q;
+}
+
+/// Two corners in one place make a triangle without an area, which borders on one that has some: rays through
+/// this border are as deep as the latter says. Where grids join coarser ones they have such micropolygons.
+TEST(HitMicropolygon, ATriangleWithoutAreaHasNoDepth) {
+    Noise noise{std::mt19937(5)};
+    int hits = 0;
+    for (int round = 0; round < 200000; ++round) {
+        const V2f a(noise(-2, 2), noise(-2, 2)), b(noise(-2, 2), noise(-2, 2)), c(noise(-2, 2), noise(-2, 2));
+        const std::array<V2f, 3> triangle{a, b, c};
+        // In either of the diagonal's triangles, either end of it, both ways round.
+        std::array<V2f, 4> corners{a, b, a, c};
+        if (round % 4 == 1) corners = {a, b, c, c};
+        if (round % 4 == 2) corners = {a, a, b, c};
+        if (round % 4 == 3) corners = {a, c, b, c};
+        const V2f from = triangle[static_cast<size_t>(round / 4 % 3)],
+                  to = triangle[static_cast<size_t>((round / 4 + 1) % 3)];
+        const float area = std::abs((b - a).cross(c - a));
+        if (area < 0.1f) continue;
+        const V2f at = from + (to - from) * noise(0, 1);
+        float depth;
+        if (!hit_micropolygon({at.x, at.y, 0, 0, 0, 0}, on_plane(corners), Facing::Both, &depth)) continue;
+        ++hits;
+        ASSERT_NEAR(depth, 2 + at.x + 2 * at.y, 1e-4f) << round;
+    }
+    EXPECT_GT(hits, 50000);
+}
+
+/// Whatever way it turns.
+TEST(HitMicropolygon, AVertexThatIsHitHasAllTheWeight) {
+    int hits = 0;
+    for (const float turn : {1.0f, -1.0f})
+        for (const float zero : {0.0f, -0.0f}) {
+            const std::array<V2f, 4> corners{V2f(0, 0), V2f(turn, 0), V2f(0, 1), V2f(turn, 1)};
+            for (size_t i = 0; i < 4; ++i) {
+                Quad q = on_plane(corners);
+                for (size_t k = 0; k < 4; ++k) {
+                    q.x[k] -= corners[i].x, q.y[k] -= corners[i].y;
+                    if (q.x[k] == 0) q.x[k] = zero;
+                    if (q.y[k] == 0) q.y[k] = zero;
+                }
+                const AxisRay ray{0, 0, 0, 0, 0, 0};
+                const QuadWeights weights = hit_weights(ray, q);
+                for (size_t k = 0; k < 4; ++k) EXPECT_EQ(weights.w[k], k == i ? 1 : 0) << turn << i;
+                float depth;
+                if (!hit_micropolygon(ray, q, Facing::Both, &depth)) continue;
+                ++hits;
+                EXPECT_EQ(depth, q.z[i]);
+            }
+        }
+    EXPECT_GT(hits, 3);
 }
 
 TEST(HitMicropolygon, AnEdgeDecidesAlikeWhateverWayItIsWalked) {

@@ -11,6 +11,9 @@
 namespace trapeze {
 namespace {
 
+/// Of the angle between derivatives below which no place is looked for.
+constexpr double kLeastSquaredSine = 1e-10;
+
 /// Makes one grid, step by step. One object a grid, on the stack: the steps share the subpatch' sides and the
 /// lists of border points.
 class Dicer {
@@ -48,24 +51,14 @@ class Dicer {
     /// The face's parameters where the grid has a place in its unit square, which is within one of a
     /// micropolygon's two triangles (core/hit_micropolygon.h).
     V2f parameters_at(const V2f& at) {
-        std::array<int, 2> first;
-        V2f within;
-        const std::array<int, 2> segments{shape_.nu, shape_.nv};
-        bool is_on_border = false;
-        for (int axis = 0; axis < 2; ++axis) {
-            const float place = std::clamp(at[axis], 0.0f, 1.0f) * static_cast<float>(segments[axis]);
-            first[axis] = std::min(static_cast<int>(place), segments[axis] - 1);
-            within[axis] = place - static_cast<float>(first[axis]);
-            is_on_border |= first[axis] == 0 || first[axis] == segments[axis] - 1;
-        }
-        if (!is_on_border || is_alone()) return subpatch_.lo + (subpatch_.hi - subpatch_.lo) * at;
+        const PlaceInGrid place(at, shape_);
+        const bool is_flat = context_.flat_cuts.are_wanted();
+        if ((!place.is_on_border || is_alone()) && !is_flat)
+            return subpatch_.lo + (subpatch_.hi - subpatch_.lo) * at;
         find_parameters();
-        const auto of = [&](int i, int j) {
-            return scratch_.uv[shape_.row_index(first[0] + i, first[1] + j)];
-        };
-        const float u = within.x, v = within.y;
-        return of(0, 0) * (1 - std::max(u, v)) + of(1, 1) * std::min(u, v) +
-               (u >= v ? of(1, 0) * (u - v) : of(0, 1) * (v - u));
+        const std::array<V2f, 4> corners{uv_of(place, 0, 0), uv_of(place, 1, 0), uv_of(place, 0, 1),
+                                         uv_of(place, 1, 1)};
+        return is_flat ? parameters_on_flat(corners, place.within) : in_triangles(corners, place.within);
     }
 
     /// As run(), of a piece that shares no border with anything.
@@ -79,6 +72,58 @@ class Dicer {
     }
 
   private:
+    /// A place in the grid's unit square: in which micropolygon, and where in that.
+    struct PlaceInGrid {
+        std::array<int, 2> first;
+        V2f within;
+        bool is_on_border = false;
+
+        PlaceInGrid(const V2f& at, const GridShape& shape) {
+            const std::array<int, 2> segments{shape.nu, shape.nv};
+            for (int axis = 0; axis < 2; ++axis) {
+                const float place = std::clamp(at[axis], 0.0f, 1.0f) * static_cast<float>(segments[axis]);
+                first[axis] = std::min(static_cast<int>(place), segments[axis] - 1);
+                within[axis] = place - static_cast<float>(first[axis]);
+                is_on_border |= first[axis] == 0 || first[axis] == segments[axis] - 1;
+            }
+        }
+    };
+    V2f uv_of(const PlaceInGrid& place, int i, int j) const {
+        return scratch_.uv[shape_.row_index(place.first[0] + i, place.first[1] + j)];
+    }
+
+    /// Of values at a micropolygon's corners, on the triangle that holds a place of its unit square.
+    template <class T>
+    static T in_triangles(const std::array<T, 4>& corners, const V2f& within) {
+        const float u = within.x, v = within.y;
+        return corners[k00] * (1 - std::max(u, v)) + corners[k11] * std::min(u, v) +
+               (u >= v ? corners[k10] * (u - v) : corners[k01] * (v - u));
+    }
+
+    /// The parameters of the place itself at key 0, by Newton's steps: a large triangle has them where its
+    /// corners say only if the face is linear.
+    V2f parameters_on_flat(const std::array<V2f, 4>& corners, const V2f& within) {
+        std::array<V3f, 4> places;
+        surface_.positions(subpatch_.face, corners, 1, scratch_.evaluation, places);
+        const V3f wanted = in_triangles(places, within);
+        V2f uv = in_triangles(corners, within);
+        constexpr int kSteps = 4;
+        for (int step = 0; step < kSteps; ++step) {
+            V3f P, u, v;
+            surface_.positions_and_derivatives(subpatch_.face, {&uv, 1}, 1, scratch_.evaluation, {&P, 1},
+                                               {&u, 1}, {&v, 1});
+            const V3f off = wanted - P;
+            const double uu = u.dot(u), uv_ = u.dot(v), vv = v.dot(v);
+            const double determinant = uu * vv - uv_ * uv_;
+            if (!(determinant > kLeastSquaredSine * uu * vv)) return uv;
+            const double by_u = off.dot(u), by_v = off.dot(v);
+            const float most = surface_.surface().last_parameter(subpatch_.face);
+            uv.x = std::clamp(uv.x + static_cast<float>((by_u * vv - by_v * uv_) / determinant), 0.0f, most);
+            uv.y = std::clamp(uv.y + static_cast<float>((by_v * uu - by_u * uv_) / determinant), 0.0f, most);
+        }
+        return uv;
+    }
+
     /// Borders of pieces that are displaced are kept whatever they join.
     bool is_alone() const { return subpatch_.alone && !context_.displaced; }
 
@@ -331,6 +376,21 @@ void dice_subpatch(const DiceContext& context, const Subpatch& subpatch, Shading
     Dicer(context, subpatch, grid, scratch).run(wanted);
 }
 
+namespace {
+
+/// Micropolygons along u and v whose sides are as long as the shading rate wishes.
+std::array<int, 2> shaded_segments(const DiceContext& context, const Subpatch& subpatch,
+                                   DiceScratch::State& scratch) {
+    if (!context.flat_cuts.are_wanted()) return {subpatch.shape.nu, subpatch.shape.nv};
+    const V2f &lo = subpatch.lo, &hi = subpatch.hi;
+    std::array<V3f, 4> corners;
+    context.surface->positions(subpatch.face, std::array{lo, V2f(hi.x, lo.y), V2f(lo.x, hi.y), hi}, 1,
+                               scratch.evaluation, corners);
+    return context.flat_cuts.fine_segments(corners);
+}
+
+}  // namespace
+
 /// A grid of one micropolygon whose sides are as long as those of the subpatch's own, so that derivatives are
 /// the same as in the whole grid. It lies beyond the place, or before it where it would reach out of the
 /// subpatch.
@@ -340,10 +400,14 @@ int dice_point(const DiceContext& context, const Subpatch& subpatch, const V2f& 
     Subpatch piece = subpatch;
     piece.shape = {1, 1};
     int vertex = 0;
-    const std::array<int, 2> segments{subpatch.shape.nu, subpatch.shape.nv};
+    const std::array<int, 2> segments = shaded_segments(context, subpatch, scratch);
     for (int axis = 0; axis < 2; ++axis) {
-        const float lo = subpatch.lo[axis], hi = subpatch.hi[axis];
-        const float side = (hi - lo) / static_cast<float>(segments[axis]);
+        // Large micropolygons may reach far over the border, where they share a neighbour's vertices.
+        const bool is_flat = context.flat_cuts.are_wanted();
+        const float lo = is_flat ? 0 : subpatch.lo[axis];
+        const float hi =
+            is_flat ? context.surface->surface().last_parameter(subpatch.face) : subpatch.hi[axis];
+        const float side = (subpatch.hi[axis] - subpatch.lo[axis]) / static_cast<float>(segments[axis]);
         const float from = std::clamp(place[axis], lo, hi);
         const bool is_high = from + side > hi;  // then the other vertex is before it
         piece.lo[axis] = is_high ? std::max(from - side, lo) : from;

@@ -16,6 +16,7 @@ struct DiceContext {
     const ScreenMetric* metric = nullptr;
     float pixels_per_segment = 1;  ///< the wished length of a micropolygon's side
     bool displaced = false;        ///< grids are to have borders by which they stay together
+    FlatCuts flat_cuts = {};       ///< SplitContext::flat_cuts
 };
 
 /// A border vertex of the grid and the shared point that it takes. Several vertices may take one point, where
@@ -45,8 +46,9 @@ struct DiceScratch::State {
 void dice_subpatch(const DiceContext& context, const Subpatch& subpatch, ShadingGrid& grid,
                    DiceScratch::State& scratch, DiceFor wanted = DiceFor::Shaders);
 
-/// Makes a grid of one micropolygon, as large as those that the subpatch dices to, with a vertex at a place
-/// of it (in its unit square); returns the vertex. It lies within the subpatch.
+/// Makes a grid of one micropolygon, as large as those that the subpatch dices to, or would if it were not
+/// flat, with a vertex at a place of it (in its unit square); returns the vertex. It lies within the
+/// subpatch.
 int dice_point(const DiceContext& context, const Subpatch& subpatch, const V2f& at, ShadingGrid& grid,
                DiceScratch::State& scratch);
 

@@ -154,4 +154,20 @@ std::vector<FaceEstimate> estimate_faces(const PlacedSurface& surface, const Lin
     return estimates;
 }
 
+void cut_estimates(const PlacedSurface& surface, const FlatCuts& cuts, std::span<FaceEstimate> estimates) {
+    constexpr size_t kFacesAtOnce = 1024;
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, estimates.size(), kFacesAtOnce), [&](const auto& range) {
+        EvaluationScratch scratch;
+        for (size_t i = range.begin(); i < range.end(); ++i) {
+            FaceEstimate& estimate = estimates[i];
+            const int face = static_cast<int>(i);
+            if (estimate.nu == 0 || !cuts.may_cut(surface.surface(), face)) continue;
+            std::array<V3f, 4> corners;
+            surface.positions(face, kFaceCorners, 1, scratch, corners);
+            const std::array<int, 2> wanted = cuts.segments(corners, {estimate.nu, estimate.nv});
+            if (wanted[0] > estimate.nu || wanted[1] > estimate.nv) estimate.nu = estimate.nv = 0;
+        }
+    });
+}
+
 }  // namespace trapeze

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "tessellate/measure/flat_faces.h"
 #include "tessellate/measure/line_measure.h"
 #include "tessellate/vertex_table.h"
 
@@ -29,5 +31,8 @@ struct FaceEstimate {
 /// that are met on the way.
 std::vector<FaceEstimate> estimate_faces(const PlacedSurface& surface, const LineMeasure& measure,
                                          const EdgeRate& rate, VertexTableMaker& vertices);
+
+/// Has estimates keep to what flat cuts want: faces that want more get none for their interior.
+void cut_estimates(const PlacedSurface& surface, const FlatCuts& cuts, std::span<FaceEstimate> estimates);
 
 }  // namespace trapeze

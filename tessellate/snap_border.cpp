@@ -41,7 +41,7 @@ void snap_border_parameters(const Edges& edges, const Subpatch& subpatch,
         const float share = (parameter - on.begin) / (on.end - on.begin);
         const int axis = side == kBottom || side == kTop ? 0 : 1;
         const float own = subpatch.lo[axis] + (subpatch.hi[axis] - subpatch.lo[axis]) * share;
-        uv[at.vertex][axis] = std::clamp(own, 0.0f, 1.0f);
+        uv[at.vertex][axis] = std::clamp(own, 0.0f, edges.surface->last_parameter(subpatch.face));
     }
     for (const BorderVertex& at : border)
         if (at.corner >= 0 && !pole[at.side] && (corners || !is_own_corner(at.vertex)))

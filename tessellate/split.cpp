@@ -199,10 +199,23 @@ class FaceSplitter {
             lattice = sample(node, kFine, 1);
             want = wanted(lattice);
         }
+        if (context_.flat_cuts.may_cut(surface_.surface(), face_)) cut_flat(lattice, want);
         if (!want[0].less && !want[1].less) return want;
         const int keys = context_.measure->keys();
         if (lattice.pieces != kFine || keys != 1) lattice = sample(node, kFine, keys);
         return foreshortened(lattice);
+    }
+
+    /// Has a rectangle of a flat face want what its values need.
+    void cut_flat(const Lattice& lattice, std::array<Want, 2>& want) const {
+        const int last = lattice.pieces;
+        const std::array<int, 2> segments = context_.flat_cuts.segments(
+            {lattice.at(0, 0, 0), lattice.at(0, last, 0), lattice.at(0, 0, last), lattice.at(0, last, last)},
+            {want[0].segments, want[1].segments});
+        for (size_t axis = 0; axis < 2; ++axis) {
+            want[axis].split |= segments[axis] > kMaxGridSide;
+            want[axis].segments = std::min(segments[axis], kMaxGridSide);
+        }
     }
 
     /// By lengths at the first key alone, of all lines of the lattice together.

@@ -32,6 +32,7 @@ struct SplitContext {
     const LineMeasure* measure = nullptr;
     const RasterBound* raster = nullptr;
     EdgeRate rate;
+    FlatCuts flat_cuts;  ///< of faces whose rate is larger because they are flat
     float displacement_bound = 0;
     std::span<const FaceEstimate> estimates;      ///< of all faces, or none
     size_t most_parts_of_face = size_t{1} << 20;  ///< about; then its interior is not split further

@@ -258,6 +258,11 @@ bool Tessellation::makes_lists_again() const {
     return impl_->again.has_value();
 }
 
+bool Tessellation::has_larger_flats() const {
+    return std::ranges::any_of(impl_->primitives,
+                               [](const TessellatedPrimitive& own) { return own.flat_cuts.are_wanted(); });
+}
+
 /// Of primitives without subpatches, which begin where the next one does, the last is the next one.
 uint32_t Tessellation::primitive_of(size_t subpatch) const {
     if (!makes_lists_again()) return infos_[subpatch].primitive;

@@ -67,6 +67,9 @@ struct TessellationOptions {
     SeenBy seen_by = SeenBy::Camera;
     /// Sides of micropolygons wish to be so long at least, in pixels; the shading rate may say longer.
     float least_side = 0;
+    /// Flat faces have larger micropolygons (tessellate/measure/flat_faces.h). Seen by rays alone, and for
+    /// DiceFor::Hits.
+    bool larger_where_flat = false;
     /// Another one of the same scene, whose surfaces are taken over; what it left out is left out. Null:
     /// they are made.
     const Tessellation* surfaces_of = nullptr;
@@ -100,6 +103,8 @@ class Tessellation {
     const std::vector<SubpatchInfo>& subpatches() const { return infos_; }
     /// Whether some lists are not kept (TessellationOptions::lists_again).
     bool makes_lists_again() const;
+    /// Whether some micropolygons are larger because they are flat (TessellationOptions::larger_where_flat).
+    bool has_larger_flats() const;
     size_t subpatch_count() const { return static_cast<size_t>(stats_.subpatches); }
     /// The primitive of a subpatch, and the number behind the last one of that.
     uint32_t primitive_of(size_t subpatch) const;

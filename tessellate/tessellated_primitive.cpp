@@ -131,11 +131,17 @@ void tessellate_primitive(const TessellatePlan& plan, const Primitive& primitive
     rate.pixels_per_segment = std::max(rate.pixels_per_segment, options.least_side);
     const size_t most_parts = most_parts_of_face(context.scene->options, rate);
     rate.max_intervals = static_cast<int>(std::min<size_t>(most_parts, rate.max_intervals));
+    if (options.larger_where_flat && !out.displaced && displacement_bound == 0) {
+        const float times = flat_times(*out.placed, metric, rate.pixels_per_segment);
+        out.flat_cuts =
+            FlatCuts(metric, rate.pixels_per_segment, times, has_corner_values(primitive.shape()));
+        rate.pixels_per_segment *= times;
+    }
     out.pixels_per_segment = rate.pixels_per_segment;
     const LineMeasure measure(metric, context.camera, *out.placed, out.displaced, rate.pixels_per_segment,
                               by_rays);
     std::optional<VertexTableMaker> vertices(*out.placed);
-    const std::vector<FaceEstimate> estimates = estimate_faces(*out.placed, measure, rate, *vertices);
+    std::vector<FaceEstimate> estimates = estimate_faces(*out.placed, measure, rate, *vertices);
     out.vertices = vertices->finish();
     vertices.reset();
     if (const float reach = out.vertices.reach(); reach > kFarthest) {
@@ -155,6 +161,8 @@ void tessellate_primitive(const TessellatePlan& plan, const Primitive& primitive
     split.measure = &measure;
     split.raster = &raster;
     split.rate = rate;
+    split.flat_cuts = out.flat_cuts;
+    if (split.flat_cuts.are_wanted()) cut_estimates(*out.placed, split.flat_cuts, estimates);
     split.estimates = estimates;
     split.displacement_bound = displacement_bound;
     split.most_parts_of_face = most_parts;

@@ -21,6 +21,7 @@ struct TessellatedPrimitive {
     Splits splits;
     size_t first_subpatch = 0;
     float pixels_per_segment = 1;
+    FlatCuts flat_cuts;
     bool displaced = false;
     bool left_whole = false;  ///< it has no subpatches of its own
     /// How to list again what is not in `splits`, where that is wanted.
@@ -32,7 +33,8 @@ struct TessellatedPrimitive {
     DiceContext dice_context(const ScreenMetric& metric, const Splits& lists) const {
         return {placed.get(),       {surface.get(), &surface_edges, &lists.made_lines, &lists.made},
                 &vertices,          &metric,
-                pixels_per_segment, displaced};
+                pixels_per_segment, displaced,
+                flat_cuts};
     }
     size_t subpatch_count() const {
         return relisting ? relisting->subpatch_count() : splits.subpatches.size();

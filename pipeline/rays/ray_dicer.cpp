@@ -17,8 +17,10 @@ RenderContext of_rays(const RenderContext& context, const Scene* copy) {
     return own;
 }
 
-TessellationOptions coarser(TessellationOptions options, float least_side, const Tessellation& surfaces_of) {
-    options.least_side = least_side, options.surfaces_of = &surfaces_of;
+TessellationOptions with(TessellationOptions options, const RaySides& sides,
+                         const Tessellation& surfaces_of) {
+    options.least_side = sides.least, options.larger_where_flat = sides.longer_where_flat;
+    options.surfaces_of = &surfaces_of;
     return options;
 }
 
@@ -61,6 +63,7 @@ TessellationOptions RayDicer::how_to_split(size_t most_bytes) const {
         return number < shared().is_shared.size() && shared().is_shared[number];
     };
     options.most_bytes = most_bytes, options.lists_again = true, options.seen_by = SeenBy::Rays;
+    options.larger_where_flat = true;
     return options;
 }
 
@@ -74,11 +77,11 @@ RayDicer::RayDicer(const RenderContext& context, const Shading& shading, size_t 
         keeps_opacity_.push_back(shading.keeps_opacity(i));
 }
 
-RayDicer::RayDicer(const RayDicer& finest, float least_side, size_t most_bytes)
+RayDicer::RayDicer(const RayDicer& finest, const RaySides& sides, size_t most_bytes)
     : scene_(finest.scene_),
       context_(finest.context_),
       shading_(finest.shading_),
-      tessellation_(context_, coarser(how_to_split(most_bytes), least_side, finest.tessellation_)),
+      tessellation_(context_, with(how_to_split(most_bytes), sides, finest.tessellation_)),
       keeps_opacity_(finest.keeps_opacity_),
       scratches_(std::make_unique<Scratches>()) {}
 

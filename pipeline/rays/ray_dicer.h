@@ -14,6 +14,12 @@
 
 namespace trapeze {
 
+/// How long sides of micropolygons are.
+struct RaySides {
+    float least = 0;  ///< in pixels
+    bool longer_where_flat = true;
+};
+
 /// Makes any grid at any time, the same bits each time; from many threads.
 class RayDicer {
   public:
@@ -21,8 +27,8 @@ class RayDicer {
     /// the motion of the camera; else it is as at shutter open. Lists of subpatches take `most_bytes`; what
     /// is more is listed again when it is asked for. The context's scene and `shading` outlive this.
     RayDicer(const RenderContext& context, const Shading& shading, size_t most_bytes);
-    /// Of the same scene, with sides of so many pixels at least.
-    RayDicer(const RayDicer& finest, float least_side, size_t most_bytes);
+    /// Of the same scene.
+    RayDicer(const RayDicer& finest, const RaySides& sides, size_t most_bytes);
     ~RayDicer();
 
     const RenderContext& context() const { return context_; }

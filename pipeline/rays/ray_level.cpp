@@ -45,7 +45,7 @@ RayLevel::RayLevel(const RenderContext& context, const Shading& shading, size_t 
 
 RayLevel::RayLevel(const RayLevel& finest, int level, size_t most_bytes)
     : level_(static_cast<uint8_t>(level)),
-      dicer_(finest.dicer_, level_side(level), most_bytes),
+      dicer_(finest.dicer_, RaySides{level_side(level)}, most_bytes),
       hits_(dicer_, level_) {}
 
 /// Sorts what all rays may meet by its space and by the kinds of rays that see it.

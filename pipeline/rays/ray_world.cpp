@@ -26,7 +26,7 @@ constexpr double kLevelShare = 0.5;
 }  // namespace
 
 RayWorld::RayWorld(const RenderContext& context, const Shading& shading, size_t most_bytes)
-    : rule_(context.camera, {0}) {
+    : rule_(context.camera, {0}), most_bytes_(most_bytes) {
     levels_[0] = std::make_unique<RayLevel>(context, shading, most_bytes);
     const Scene& scene = *this->context().scene;
     if (!scene.solids.empty()) solids_.emplace(scene);
@@ -81,7 +81,8 @@ size_t RayWorld::bytes() const {
 }
 
 size_t RayWorld::list_bytes() const {
-    return sum_of([](const RayLevel& level) { return level.dicer().tessellation().bytes(); });
+    const size_t of_surfels = surfel_dicer_ ? surfel_dicer_->tessellation().bytes() : 0;
+    return of_surfels + sum_of([](const RayLevel& level) { return level.dicer().tessellation().bytes(); });
 }
 
 uint64_t RayWorld::micropolygon_count() const {
@@ -189,12 +190,19 @@ float RayWorld::spacing(const V3f& P) const {
 
 std::optional<Surfels> RayWorld::surfels(RayKind kind, size_t most_bytes) const {
     const RayLevel& finest = *levels_[0];
+    std::call_once(surfels_wanted_, [&] {
+        // Who waits for it may hold what other tasks of the frame want.
+        if (finest.dicer().tessellation().has_larger_flats())
+            tbb::this_task_arena::isolate([&] {
+                surfel_dicer_ = std::make_unique<RayDicer>(finest.dicer(), RaySides{0, false}, most_bytes_);
+            });
+    });
     return make_surfels(
-        finest.dicer(), [&](uint32_t primitive) { return finest.is_seen(primitive, kind); }, most_bytes);
+        dicer_of_surfels(), [&](uint32_t primitive) { return finest.is_seen(primitive, kind); }, most_bytes);
 }
 
 int RayWorld::dice_surfel(uint64_t id, ShadingGrid& grid) const {
-    return trapeze::dice_surfel(levels_[0]->dicer(), id, grid);
+    return trapeze::dice_surfel(dicer_of_surfels(), id, grid);
 }
 
 /// Who waits for it may hold what other tasks of the frame want.

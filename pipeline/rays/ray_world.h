@@ -5,6 +5,7 @@
 
 #include <array>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -52,6 +53,7 @@ class RayWorld final : public RayScene {
   private:
     const RenderContext& context() const { return levels_[0]->dicer().context(); }
     std::vector<int> make_levels(size_t most_bytes);
+    const RayDicer& dicer_of_surfels() const { return surfel_dicer_ ? *surfel_dicer_ : levels_[0]->dicer(); }
     std::optional<RaySurfaceHit> closest_of_all(const RaySegment& ray, RayKind kind) const;
     template <class Ends, class Ask>
     void for_each_level(std::span<const RaySegment* const> rays, const Ends& ends, const Ask& ask) const;
@@ -69,6 +71,10 @@ class RayWorld final : public RayScene {
     bool makes_bricks_ = false;
     size_t rays_at_once_ = 0;          ///< where bricks are made
     std::optional<SolidHits> solids_;  ///< of a scene that has solids
+    size_t most_bytes_;
+    /// Surfels are as large whether they are flat or not: a second tessellation, made with the first of them.
+    mutable std::once_flag surfels_wanted_;
+    mutable std::unique_ptr<RayDicer> surfel_dicer_;  ///< null: the finest level's
 };
 
 /// The ray world of a render whose shaders ask for rays; else null. Tells when they ask and nothing is there

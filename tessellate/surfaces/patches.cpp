@@ -40,6 +40,8 @@ class PatchSurface : public TopologySurface<PatchSurface> {
         return {static_cast<float>(faces_.columns), static_cast<float>(faces_.rows)};
     }
 
+    bool has_straight_lines() const override { return !mesh_.bicubic; }
+
     std::unique_ptr<SurfaceScratch> make_scratch() const override { return std::make_unique<PatchScratch>(); }
     void evaluate(int face, std::span<const V2f> uv, int shape_key, SurfaceScratch* scratch, std::span<V3f> P,
                   std::span<V3f> dPdu, std::span<V3f> dPdv) const override;

@@ -41,6 +41,8 @@ class PolygonSurface : public TopologySurface<PolygonSurface> {
 
     const MeshTopology& topology() const { return topology_; }
     bool is_faceted() const override { return is_faceted_; }
+    bool has_straight_lines() const override { return true; }
+    bool is_linear(int face) const override { return topology_.piece(face).cut; }
 
     void evaluate(int face, std::span<const V2f> uv, int shape_key, SurfaceScratch* scratch, std::span<V3f> P,
                   std::span<V3f> dPdu, std::span<V3f> dPdv) const override;

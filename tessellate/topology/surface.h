@@ -118,6 +118,14 @@ class Surface {
     /// Derivatives in the grid are by grid.u and grid.v, those of evaluate() by the face's.
     virtual V2f faces_per_unit(int /*face*/) const { return {1, 1}; }
 
+    /// Whether lines along u and v on a face are straight, and even in its parameter.
+    virtual bool has_straight_lines() const { return false; }
+    /// Whether positions and variables of a face are linear in its plane, however its lines run: also beyond
+    /// the unit square, up to u and v of 2, over which an edge may go on (EdgeLine).
+    virtual bool is_linear(int /*face*/) const { return false; }
+    /// Up to where the parameters of a face mean something.
+    float last_parameter(int face) const { return is_linear(face) ? 2.0f : 1.0f; }
+
     /// A flat normal for each face (polygons): N is then dPdu x dPdv of the face without sharing across
     /// edges.
     virtual bool is_faceted() const { return false; }

@@ -111,7 +111,7 @@ class EveryMicropolygon {
               dicer(scene.context(), scene.shading(), kBytes),
               all(make_all_grids(dicer, kBytes)) {}
         Level(int n, const RayDicer& finest)
-            : number(n), dicer(finest, level_side(n), kBytes), all(make_all_grids(dicer, kBytes)) {}
+            : number(n), dicer(finest, RaySides{level_side(n)}, kBytes), all(make_all_grids(dicer, kBytes)) {}
         uint64_t count() const { return dicer.tessellation().stats().micropolygons; }
         int object_of(size_t grid) const {
             return dicer.shared().object_of(dicer.tessellation().subpatches()[grid].primitive);

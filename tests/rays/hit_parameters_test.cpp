@@ -76,7 +76,7 @@ void expect_told_is_the_place(const std::string& things, bool by_st, Place place
         ASSERT_LT((grid.P[0].at(vertex) - told).length(), kSide / 1000) << told;
         off += away > kSide / 100;
     }
-    EXPECT_GT(met, 3000);
+    EXPECT_GT(met, 2500);  // of flat faces many borders are the rim
     EXPECT_LE(off, share * met);
 }
 

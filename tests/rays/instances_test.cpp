@@ -84,7 +84,8 @@ TEST(RayInstances, AreAllMet) {
                                      "Scale 1.3 .8 1 Rotate 50 0 1 2 "};
         return std::string(turns[i]) + "ObjectInstance 1";
     };
-    std::string things = kBoxObject;
+    // What may be displaced has small micropolygons, many of them.
+    std::string things = "Attribute \"displacementbound\" \"float sphere\" [1e-6] " + kBoxObject;
     for (int turn = 0; turn < 4; ++turn) things += herd.with(thing(turn), own);
     for (const auto& [options, bytes] :
          {std::pair(kPerspectiveView, size_t{1} << 18), std::pair(kLevels, size_t{1} << 20)}) {
