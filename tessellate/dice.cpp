@@ -13,6 +13,8 @@ namespace {
 
 /// Of the angle between derivatives below which no place is looked for.
 constexpr double kLeastSquaredSine = 1e-10;
+/// Steps of parameters that are no more than rounding.
+constexpr float kCloseParameters = 1e-7f;
 
 /// Makes one grid, step by step. One object a grid, on the stack: the steps share the subpatch' sides and the
 /// lists of border points.
@@ -107,19 +109,21 @@ class Dicer {
         surface_.positions(subpatch_.face, corners, 1, scratch_.evaluation, places);
         const V3f wanted = in_triangles(places, within);
         V2f uv = in_triangles(corners, within);
+        const float most = surface_.surface().last_parameter(subpatch_.face);
         constexpr int kSteps = 4;
         for (int step = 0; step < kSteps; ++step) {
-            V3f P, u, v;
+            V3f P, along_u, along_v;
             surface_.positions_and_derivatives(subpatch_.face, {&uv, 1}, 1, scratch_.evaluation, {&P, 1},
-                                               {&u, 1}, {&v, 1});
-            const V3f off = wanted - P;
-            const double uu = u.dot(u), uv_ = u.dot(v), vv = v.dot(v);
-            const double determinant = uu * vv - uv_ * uv_;
-            if (!(determinant > kLeastSquaredSine * uu * vv)) return uv;
+                                               {&along_u, 1}, {&along_v, 1});
+            const V3d off(wanted - P), u(along_u), v(along_v);
+            const double uu = u.dot(u), across = u.dot(v), vv = v.dot(v);
+            const double determinant = uu * vv - across * across;
+            if (!(determinant > kLeastSquaredSine * uu * vv)) break;
             const double by_u = off.dot(u), by_v = off.dot(v);
-            const float most = surface_.surface().last_parameter(subpatch_.face);
-            uv.x = std::clamp(uv.x + static_cast<float>((by_u * vv - by_v * uv_) / determinant), 0.0f, most);
-            uv.y = std::clamp(uv.y + static_cast<float>((by_v * uu - by_u * uv_) / determinant), 0.0f, most);
+            const V2f by(static_cast<float>((by_u * vv - by_v * across) / determinant),
+                         static_cast<float>((by_v * uu - by_u * across) / determinant));
+            uv.x = std::clamp(uv.x + by.x, 0.0f, most), uv.y = std::clamp(uv.y + by.y, 0.0f, most);
+            if (std::abs(by.x) < kCloseParameters && std::abs(by.y) < kCloseParameters) break;
         }
         return uv;
     }
@@ -369,15 +373,6 @@ class Dicer {
     bool all_in_place_ = true;  ///< all sides are
 };
 
-}  // namespace
-
-void dice_subpatch(const DiceContext& context, const Subpatch& subpatch, ShadingGrid& grid,
-                   DiceScratch::State& scratch, DiceFor wanted) {
-    Dicer(context, subpatch, grid, scratch).run(wanted);
-}
-
-namespace {
-
 /// Micropolygons along u and v whose sides are as long as the shading rate wishes.
 std::array<int, 2> shaded_segments(const DiceContext& context, const Subpatch& subpatch,
                                    DiceScratch::State& scratch) {
@@ -391,9 +386,14 @@ std::array<int, 2> shaded_segments(const DiceContext& context, const Subpatch& s
 
 }  // namespace
 
+void dice_subpatch(const DiceContext& context, const Subpatch& subpatch, ShadingGrid& grid,
+                   DiceScratch::State& scratch, DiceFor wanted) {
+    Dicer(context, subpatch, grid, scratch).run(wanted);
+}
+
 /// A grid of one micropolygon whose sides are as long as those of the subpatch's own, so that derivatives are
 /// the same as in the whole grid. It lies beyond the place, or before it where it would reach out of the
-/// subpatch.
+/// subpatch, or of what flat faces' parameters mean.
 int dice_point(const DiceContext& context, const Subpatch& subpatch, const V2f& at, ShadingGrid& grid,
                DiceScratch::State& scratch) {
     const V2f place = Dicer(context, subpatch, grid, scratch).parameters_at(at);
@@ -401,9 +401,9 @@ int dice_point(const DiceContext& context, const Subpatch& subpatch, const V2f& 
     piece.shape = {1, 1};
     int vertex = 0;
     const std::array<int, 2> segments = shaded_segments(context, subpatch, scratch);
+    // Large micropolygons may reach far over the border, where they share a neighbour's vertices.
+    const bool is_flat = context.flat_cuts.are_wanted();
     for (int axis = 0; axis < 2; ++axis) {
-        // Large micropolygons may reach far over the border, where they share a neighbour's vertices.
-        const bool is_flat = context.flat_cuts.are_wanted();
         const float lo = is_flat ? 0 : subpatch.lo[axis];
         const float hi =
             is_flat ? context.surface->surface().last_parameter(subpatch.face) : subpatch.hi[axis];

@@ -48,7 +48,7 @@ void dice_subpatch(const DiceContext& context, const Subpatch& subpatch, Shading
 
 /// Makes a grid of one micropolygon, as large as those that the subpatch dices to, or would if it were not
 /// flat, with a vertex at a place of it (in its unit square); returns the vertex. It lies within the
-/// subpatch.
+/// subpatch, or, of a flat face, within what its parameters mean (Surface::last_parameter).
 int dice_point(const DiceContext& context, const Subpatch& subpatch, const V2f& at, ShadingGrid& grid,
                DiceScratch::State& scratch);
 

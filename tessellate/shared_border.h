@@ -12,7 +12,8 @@ namespace trapeze {
 /// Moves the face's own parameters of border vertices to where their shared points are on this face, so that
 /// variables agree with positions, and between faces that have them alike. Grid corners may take the same
 /// point, where a piece of a face is smaller than a micropolygon: then another piece reaches beyond itself,
-/// which its parameters cannot, and unless `corners` those of corners stay, to cover the face.
+/// which parameters can on linear faces alone (Surface::last_parameter), and unless `corners` those of
+/// corners stay, to cover the face.
 void snap_border_parameters(const Edges& edges, const Subpatch& subpatch,
                             std::span<const BorderSide, 4> sides, std::span<const BorderPoint> points,
                             std::span<const BorderVertex> border, bool corners, std::span<V2f> uv);

@@ -33,8 +33,11 @@ void snap_border_parameters(const Edges& edges, const Subpatch& subpatch,
     for (const BorderVertex& at : border) {
         if (at.side != side) side = at.side, first_of_side = at.point;
         const SurfaceSide& on = subpatch.sides[side];
-        // A corner that lies within one of its edges and at the end of the other is moved along the former.
-        if (pole[side] || sides[side].in_place || on.begin == on.end || points[at.point].hops > 0) continue;
+        // A corner that lies within one of its edges and at the end of the other is moved along the former:
+        // only a vertex is an end of its own edge.
+        const BorderPoint& point = points[at.point];
+        const bool is_of_another = point.is_vertex ? point.hops > 1 : point.hops > 0;
+        if (pole[side] || sides[side].in_place || on.begin == on.end || is_of_another) continue;
         const float parameter =
             sides[side].interval->parameter_of(sides[side].vertex(at.point - first_of_side));
         // The side's share that lies at the shared point, taken over to the subpatch's own rectangle.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <utility>
 
 #include "core/grid.h"
 
@@ -39,6 +40,18 @@ RectanglePixels pixels_of(const ScreenMetric& metric, std::span<const V3f, 4> co
     return {std::max(counted(0), counted(1)), std::max(counted(2), counted(3)), counted(4)};
 }
 
+/// Whether a bilinear rectangle turns over within itself, so that its outline is a curve: at some corner it
+/// turns the other way.
+bool is_folded(std::span<const V3f, 4> corners, const V3f& normal) {
+    const V3f bottom = corners[1] - corners[0], top = corners[3] - corners[2];
+    const V3f left = corners[2] - corners[0], right = corners[3] - corners[1];
+    const float least = -kRounding * (bottom + top).cross(left + right).length();
+    for (const auto& [u, v] :
+         {std::pair(bottom, left), std::pair(bottom, right), std::pair(top, left), std::pair(top, right)})
+        if (u.cross(v).dot(normal) < least) return true;
+    return false;
+}
+
 /// Whether a face is flat enough for sides of so many pixels; `corners` key by key.
 bool is_flat(const ScreenMetric& metric, std::span<const V3f> corners, bool is_rigid, float fine) {
     for (size_t key = 0; key < corners.size() / 4; ++key) {
@@ -49,14 +62,16 @@ bool is_flat(const ScreenMetric& metric, std::span<const V3f> corners, bool is_r
         // Flat at each key need not be flat between them.
         if (!is_rigid) return false;
         const V3f twice_area = across.cross(other);
-        // A face that is nearly a line lies near it, whatever its normal.
-        const float beside =
-            std::min(std::abs(twisted.dot(twice_area.normalized())), twice_area.length() / size);
         const auto [u, v, pixels] = pixels_of(metric, at);
+        const float pixels_of_one = pixels / twisted.length(), most = kFlatOfSide * fine;
+        // A face that is nearly a line lies near it, whatever its normal.
+        if (pixels_of_one * twice_area.length() / size <= most) continue;
+        const V3f normal = twice_area.normalized();
+        if (is_folded(at, normal)) return false;
         const float largest = fine * kLargestFlatTimes;
-        const float off = pixels * beside / twisted.length() /
+        const float off = pixels_of_one * std::abs(twisted.dot(normal)) /
                           (4 * std::max(u / largest, 1.0f) * std::max(v / largest, 1.0f));
-        if (!(off <= kFlatOfSide * fine)) return false;
+        if (!(off <= most)) return false;
     }
     return true;
 }

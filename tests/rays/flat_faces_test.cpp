@@ -1,5 +1,6 @@
 /// Larger micropolygons of flat faces, which rays meet: as few as there may be, but what is told of their
 /// hits is as of small ones.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -51,8 +52,10 @@ TEST(FlatFaces, HaveFewMicropolygons) {
 }
 
 TEST(FlatFaces, AreNotThoseThatBend) {
+    // Flat, but its lines cross, and its outline is curved.
+    const std::string folded = "Patch \"bilinear\" \"P\" [-1 -1 0 1 -1 0 -1 1 0 -.95 -.95 0] ";
     for (const std::string& thing :
-         {bent_patch(.1f), std::string("Sphere 1 -1 1 360 "),
+         {bent_patch(.1f), folded, std::string("Sphere 1 -1 1 360 "),
           "Attribute \"displacementbound\" \"sphere\" [.1] " + kSquareOfTwo,
           std::string("Patch \"bicubic\" \"P\" [-1 -1 0 -.3 -1 0 .3 -1 0 1 -1 0 -1 -.3 0 -.3 -.3 0 .3 -.3 0 "
                       "1 -.3 0 -1 .3 0 -.3 .3 0 .3 .3 0 1 .3 0 -1 1 0 -.3 1 0 .3 1 0 1 1 0] "),
@@ -79,33 +82,68 @@ TEST(FlatFaces, AreCutForTheirColors) {
     EXPECT_LT(times, 100);
 }
 
-/// What is told of a hit is where the ray has met it; and what it is filtered over is as large as if all
-/// micropolygons were small.
+/// What is told of a hit is where the ray has met it, in all variables (those of polygons are x and y in
+/// object space); and what it is filtered over is as large as if all micropolygons were small.
+void expect_told_as_of_small_ones(const std::string& thing, int least_met) {
+    SCOPED_TRACE(thing);
+    const bool is_polygon = thing.starts_with("P") && thing[1] == 'o';
+    const RayWorldScene scene("Rotate 30 1 2 3 " + thing, kPixelView);
+    M44f object_from_camera;
+    object_from_camera = scene.scene().primitives.front().camera_from_object.front().inverse();
+    RayNumbers number;
+    ShadingGrid grid;
+    int met = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const V3f from = number.in_cube(3), target = number.in_cube(.6f);
+        const RaySegment ray = ray_to(from, target - from, 0);
+        const std::optional<RaySurfaceHit> hit = scene.world().closest(ray, RayKind::Diffuse);
+        if (!hit) continue;
+        ++met;
+        const auto vertex = static_cast<size_t>(scene.world().dice(*hit, grid));
+        const V3f P = from + ray.direction * hit->distance, own = P * object_from_camera;
+        ASSERT_LT((grid.P[0].at(vertex) - P).length(), kPixelSide / 100) << P;
+        if (is_polygon) {
+            ASSERT_NEAR(grid.u[vertex], own.x, kPixelSide / 100) << own;
+            ASSERT_NEAR(grid.t[vertex], own.y, kPixelSide / 100) << own;
+        }
+        const V3f u = grid.P[0].at(1) - grid.P[0].at(0), v = grid.P[0].at(2) - grid.P[0].at(0);
+        ASSERT_LT(std::max(u.length(), v.length()), 1.6f * kPixelSide);
+    }
+    EXPECT_GT(met, least_met);
+}
+
 TEST(FlatFaces, TellPlacesAndSizesAsSmallOnes) {
     const std::string five = "Polygon \"P\" [-1 -1 0 .2 -1 0 1 .1 0 .4 1 0 -.8 .6 0] ";
     const std::string two =
         "PointsPolygons [4 4] [0 1 4 3 1 2 5 4] \"P\" [-1 -1 0 .5 -1 0 .8 -.9 0 "
         "-1 1 0 .3 .9 0 1 1 0] ";
-    for (const std::string& thing : {kSquareOfTwo, kFlatTrapezoid, kTriangle, kFan, five, two}) {
-        SCOPED_TRACE(thing);
-        const RayWorldScene scene("Rotate 30 1 2 3 " + thing, kPixelView);
-        RayNumbers number;
-        ShadingGrid grid;
-        int met = 0;
-        for (int i = 0; i < 4000; ++i) {
-            const V3f from = number.in_cube(3), target = number.in_cube(.6f);
-            const RaySegment ray = ray_to(from, target - from, 0);
-            const std::optional<RaySurfaceHit> hit = scene.world().closest(ray, RayKind::Diffuse);
-            if (!hit) continue;
-            ++met;
-            const auto vertex = static_cast<size_t>(scene.world().dice(*hit, grid));
-            const V3f P = from + ray.direction * hit->distance;
-            ASSERT_LT((grid.P[0].at(vertex) - P).length(), kPixelSide / 100) << P;
-            const V3f u = grid.P[0].at(1) - grid.P[0].at(0), v = grid.P[0].at(2) - grid.P[0].at(0);
-            ASSERT_LT(std::max(u.length(), v.length()), 1.6f * kPixelSide);
-        }
-        EXPECT_GT(met, 700);
+    for (const std::string& thing : {kSquareOfTwo, kFlatTrapezoid, kTriangle, kFan, five, two})
+        expect_told_as_of_small_ones(thing, 700);
+}
+
+/// Pieces of triangles with edges of one micropolygon have corners on the next piece.
+TEST(FlatFaces, TellPlacesOnTrianglesOfOneMicropolygon) {
+    for (const char* const size : {".05", ".1", ".2", ".3", ".4", ".5"}) {
+        const std::string s = size;
+        expect_told_as_of_small_ones(
+            "Polygon \"P\" [-" + s + " -" + s + " 0 " + s + " -" + s + " 0 0 " + s + " 0] ", 3);
     }
+    expect_told_as_of_small_ones("Polygon \"P\" [-.9 -.9 0 .9 0 0 .9 .2 0] ", 100);
+    // A mesh of triangles.
+    std::string faces, corners, points;
+    for (int j = 0; j < 10; ++j)
+        for (int i = 0; i < 10; ++i) {
+            const int at = 11 * j + i;
+            faces += "3 3 ";
+            corners += fmt::format("{} {} {} {} {} {} ", at, at + 1, at + 12, at, at + 12, at + 11);
+        }
+    RayNumbers number;
+    for (int j = 0; j <= 10; ++j)
+        for (int i = 0; i <= 10; ++i)
+            points += fmt::format("{} {} 0 ", .2f * static_cast<float>(i) - 1 + number(-.05f, .05f),
+                                  .2f * static_cast<float>(j) - 1 + number(-.05f, .05f));
+    expect_told_as_of_small_ones("PointsPolygons [" + faces + "] [" + corners + "] \"P\" [" + points + "] ",
+                                 700);
 }
 
 }  // namespace
