@@ -8,7 +8,7 @@
 
 #include "composite/displays/compressions.h"
 #include "composite/displays/exr_attributes.h"
-#include "core/colors/transfer.h"
+#include "composite/displays/pixel_types.h"
 #include "core/scene/deep_pictures.h"
 #include "core/scene/light_groups.h"
 
@@ -211,60 +211,6 @@ bool choose_channels(const Display& display, Diagnostics& diagnostics, DisplayPl
     return true;
 }
 
-/// A parameter that has at least `count` floats; else null.
-const Parameter* floats_of(const ParameterList& list, std::string_view name, size_t count) {
-    const Parameter* parameter = list.find(name);
-    return parameter && parameter->floats.size() >= count ? parameter : nullptr;
-}
-
-/// What the format cannot hold becomes 8 bits. OpenEXR has no use for it.
-void fit_to_format(Quantization& quantization, FileFormat format) {
-    const bool takes_floats = format == FileFormat::Tiff || format == FileFormat::OpenExr;
-    const bool takes_16_bits = takes_floats || format == FileFormat::Png;
-    if (quantization.to_float() ? !takes_floats : quantization.has_16_bits() && !takes_16_bits)
-        quantization = Quantization{};
-}
-
-/// Chooses whether colours are encoded by the sRGB curve, and whether a view comes in its place. What a
-/// display itself says comes before both.
-void choose_encoding(const Display& display, const Options& options, DisplayPlan& plan) {
-    if (plan.format == FileFormat::OpenExr || plan.quantization.to_float()) return;
-    if (!plan.rgb && !plan.aov_is_color) return;
-    const auto own = transfer_named(display.parameters.string_or("colorspace", ""));
-    const Transfer transfer = own.value_or(transfer_of(options));
-    plan.srgb = transfer == Transfer::Srgb || (transfer == Transfer::Auto && options.exposure_gamma == 1 &&
-                                               !plan.quantization.has_16_bits());
-    plan.viewed = !own;
-}
-
-/// How numbers become the file's. What the display says ("quantize", "dither", "type") comes before the
-/// options' Quantize of the variable, and that before Quantize of "rgba" or "z". Variables that are no
-/// colours stay floats unless Quantize names them or the display has its own.
-void choose_pixel_type(const Display& display, const Options& options, DisplayPlan& plan) {
-    const Parameter* own = floats_of(display.parameters, "quantize", 4);
-    const bool color = plan.rgb || plan.alpha || plan.aov_is_color;
-    const Parameter* given = plan.aov ? floats_of(options.quantize, plan.aov->name, 4) : nullptr;
-    if (!given && plan.aov && !plan.aov_is_color) plan.quantization.make_float();
-    if (!given && (!plan.aov || plan.aov_is_color))
-        given = floats_of(options.quantize, color ? "rgba" : "z", 4);
-    if (given) plan.quantization = {given->floats[0], given->floats[1], given->floats[2], given->floats[3]};
-    if (own) {  // zero one min max; the dither is apart
-        plan.quantization.zero = own->floats[0], plan.quantization.one = own->floats[1];
-        plan.quantization.min = own->floats[2], plan.quantization.max = own->floats[3];
-    }
-    plan.quantization.dither = display.parameters.float_or("dither", plan.quantization.dither);
-    if (!color && !plan.aov) plan.quantization.make_float();  // depth
-    plan.float_pixels =
-        own && std::all_of(own->floats.begin(), own->floats.begin() + 4, [](float v) { return v == 0; });
-    const std::string type =
-        lower(display.parameters.string_or("exrpixeltype", display.parameters.string_or("type", "")));
-    if (type == "float") plan.float_pixels = true, plan.quantization.make_float();
-    if (type == "half") plan.float_pixels = false;
-    if ((plan.aov && !plan.aov_is_color) || (plan.deep && type != "half")) plan.float_pixels = true;
-    fit_to_format(plan.quantization, plan.format);
-    choose_encoding(display, options, plan);
-}
-
 /// "exrcompression" is OpenEXR's alone and comes before "compression". Empty: what the format usually has.
 void choose_compression(const Display& display, Diagnostics& diagnostics, DisplayPlan& plan) {
     const Parameter* asked = display.parameters.find("exrcompression");
@@ -308,8 +254,25 @@ void choose_storage(const Display& display, Diagnostics& diagnostics, DisplayPla
             "display-storage " + plan.path);
         return;
     }
-    const float side = display.parameters.float_or("tilesize", kUsualTileSide);
-    plan.tile_side = static_cast<int>(std::clamp(side, 1.0f, static_cast<float>(kMostTileSide)));
+    float side = display.parameters.float_or("tilesize", kUsualTileSide);
+    if (!(side >= 1 && side <= kMostTileSide)) {
+        diagnostics.warning(display.location,
+                            fmt::format("tiles are 1 to {} pixels wide; those of \"{}\" are {}",
+                                        kMostTileSide, plan.path, kUsualTileSide),
+                            "display-tilesize " + plan.path);
+        side = kUsualTileSide;
+    }
+    plan.tile_side = static_cast<int>(side);
+}
+
+/// "deeptolerance" (core/scene/deep_pictures.h).
+void check_deep_tolerance(const Display& display, Diagnostics& diagnostics, const DisplayPlan& plan) {
+    const float tolerance = display.parameters.float_or("deeptolerance", kUsualDeepTolerance);
+    if (!plan.deep || (tolerance >= 0 && tolerance <= 1)) return;
+    diagnostics.warning(display.location,
+                        fmt::format("\"{}\": a deeptolerance of {} is not between 0 and 1; it is {}",
+                                    plan.path, tolerance, tolerance > 1 ? 1 : 0),
+                        "display-deeptolerance " + plan.path);
 }
 
 /// Attributes that the scene asks for; each that cannot be written is left out with a warning.
@@ -362,9 +325,8 @@ void rename(Display& display, std::string name) {
 bool asks_for_whole_numbers(const Display& display, const Options& options) {
     const auto format = file_format(display);
     if (!format) return false;
-    if (const Parameter* own = floats_of(display.parameters, "quantize", 4))
-        return own->floats[0] != own->floats[1];
-    if (const Parameter* given = floats_of(options.quantize, "rgba", 4)) return given->floats[0] != 0;
+    if (const Parameter* own = own_quantization(display)) return own->floats[0] != own->floats[1];
+    if (const Parameter* given = given_quantization(options, "rgba")) return given->floats[0] != 0;
     return *format != FileFormat::OpenExr && !opens_window(display);
 }
 
@@ -411,9 +373,10 @@ std::optional<DisplayPlan> plan_display(const Display& display, const Options& o
     if (!(variable ? choose_variable(display, layout, diagnostics, plan)
                    : choose_channels(display, diagnostics, plan)))
         return {};
-    choose_pixel_type(display, options, plan);
+    choose_pixel_type(display, options, diagnostics, plan);
     choose_compression(display, diagnostics, plan);
     choose_storage(display, diagnostics, plan);
+    check_deep_tolerance(display, diagnostics, plan);
     take_attributes(display, diagnostics, plan);
     return plan;
 }

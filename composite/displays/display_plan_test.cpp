@@ -238,6 +238,33 @@ TEST(DisplayPlan, PixelTypes) {
     }
 }
 
+TEST(DisplayPlan, WhatMeansNothingIsTold) {
+    const auto told = [](const Parameter& parameter, const char* driver = "exr") {
+        Display display{"a.exr", driver, "rgba", {}, {}};
+        display.parameters.set(text("storage", "tiled"));
+        display.parameters.set(parameter);
+        const Planned result = planned(display);
+        EXPECT_TRUE(result.plan);
+        return result.warnings;
+    };
+    EXPECT_EQ(told(text("type", "double")), 1u);
+    EXPECT_EQ(told(text("type", "HALF")), 0u);
+    EXPECT_EQ(told(floats("quantize", {0, 255, 255, 0})), 1u);
+    EXPECT_EQ(told(floats("quantize", {0, 255, 255})), 1u);
+    EXPECT_EQ(told(floats("quantize", {0, 255, 0, 255})), 0u);
+    EXPECT_EQ(told(floats("tilesize", {0})), 1u);
+    EXPECT_EQ(told(floats("tilesize", {32})), 0u);
+    EXPECT_EQ(told(floats("deeptolerance", {-1})), 0u) << "is not deep";
+    Display display{"a.tif", "tiff", "rgba", {}, {}};
+    display.parameters.set(floats("quantize", {0, 255, 255, 0}));
+    EXPECT_EQ(planned(display).plan->quantization.max, 255);
+    Display deep{"a.exr", "deepexr", "rgba", {}, {}};
+    for (const float tolerance : {-1.0f, 2.0f}) {
+        deep.parameters.set(floats("deeptolerance", {tolerance}));
+        EXPECT_EQ(planned(deep).warnings, 1u);
+    }
+}
+
 TEST(DisplayPlan, QuantizeOfTheDisplayBeatsThatOfTheOptions) {
     Display display{"a.tif", "tiff", "rgba", {}, {}};
     Options options;

@@ -21,7 +21,8 @@ inline bool is_deep(const Display& display) {
 inline std::optional<float> deep_tolerance(const Options& options) {
     const auto found = std::ranges::find_if(options.displays, is_deep);
     if (found == options.displays.end()) return {};
-    return std::clamp(found->parameters.float_or("deeptolerance", kUsualDeepTolerance), 0.0f, 1.0f);
+    const float asked = found->parameters.float_or("deeptolerance", kUsualDeepTolerance);
+    return asked > 0 ? std::min(asked, 1.0f) : 0.0f;
 }
 
 }  // namespace trapeze

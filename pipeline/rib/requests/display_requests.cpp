@@ -108,7 +108,13 @@ Display with_mode(OptionContext& r, Display display, const std::string& mode) {
         for (const Parameter& parameter : channel->second.parameters.values)
             if (!display.parameters.find(parameter.name)) display.parameters.set(parameter);
     }
-    if (display.variable) display.variable->filter = variable_filter(r, display.parameters);
+    const VariableFilter filter = variable_filter(r, display.parameters);
+    if (display.variable)
+        display.variable->filter = filter;
+    else if (filter != VariableFilter::Picture)
+        r.report.warn_once("a filter of a display is for variables; " + in_quotes(mode) + " of " +
+                               in_quotes(display.name) + " has the picture's",
+                           "display-filter-mode " + display.name + ' ' + mode);
     return display;
 }
 

@@ -1,4 +1,6 @@
 /// RISpec 4.1: the camera, the film, the hider. Displays are in display_requests.cpp.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -264,6 +266,10 @@ void quantize(OptionContext& r, ArgumentCursor& c) {
     value.name = c.string("the type");
     value.floats = c.numbers(4, "one, min, max and dither");
     if (value.name == "rgb") value.name = "rgba";  // as scenes in the world write it
+    if (!(value.floats[1] <= value.floats[2]))
+        throw RequestError{
+            fmt::format("its least value, {}, is above its largest, {}", value.floats[1], value.floats[2]),
+            {}};
     r.state.scope().quantized.try_emplace(value.name, r.report.at());
     value.declaration.array_length = 4;
     changeable_options(r).quantize.set(std::move(value));
