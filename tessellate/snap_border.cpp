@@ -27,16 +27,19 @@ void snap_border_parameters(const Edges& edges, const Subpatch& subpatch,
         return vertex == 0 || vertex == shape.nu || vertex == shape.row_index(0, shape.nv) ||
                vertex == shape.row_index(shape.nu, shape.nv);
     };
+    const bool is_linear = edges.surface->is_linear(subpatch.face);
     std::array<bool, 4> pole;
     for (int s = 0; s < 4; ++s) pole[s] = is_point(edges, sides[s]);
     int first_of_side = 0, side = -1;
     for (const BorderVertex& at : border) {
         if (at.side != side) side = at.side, first_of_side = at.point;
         const SurfaceSide& on = subpatch.sides[side];
-        // A corner that lies within one of its edges and at the end of the other is moved along the former:
-        // only a vertex is an end of its own edge.
+        // A corner that lies within one of its edges and at the end of the other is moved along the former. A
+        // vertex may be the end of its own edge: there parameters go as far on linear faces alone, and others
+        // stay, to cover the face.
         const BorderPoint& point = points[at.point];
-        const bool is_of_another = point.is_vertex ? point.hops > 1 : point.hops > 0;
+        const bool is_own_end = is_linear && point.is_vertex && point.hops == 1;
+        const bool is_of_another = point.hops > 0 && !is_own_end;
         if (pole[side] || sides[side].in_place || on.begin == on.end || is_of_another) continue;
         const float parameter =
             sides[side].interval->parameter_of(sides[side].vertex(at.point - first_of_side));
