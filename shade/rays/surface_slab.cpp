@@ -73,8 +73,14 @@ V3f inwards_at(const ShadingGrid& grid, size_t vertex, float half, uint8_t sides
     const size_t row = size_t{grid.shape.nu} + 1, u = vertex % row, v = vertex / row;
     const V3f here = P.at(vertex);
     V3f way(0, 0, 0);
+    // Towards the vertex beside it, or where that is in the same place, as those of grids that join coarser
+    // ones may be, towards the one across the micropolygon.
+    const size_t beside_u = u < grid.shape.nu ? vertex + 1 : vertex - 1;
+    const size_t across = v < grid.shape.nv ? beside_u + row : beside_u - row;
     const auto look_at = [&](uint8_t side, bool is_on_it, size_t beside) {
-        if (is_on_it && (sides & side) != 0) way += P.at(beside) - here;
+        if (!is_on_it || (sides & side) == 0) return;
+        const V3f to_it = P.at(beside) - here;
+        way += to_it != V3f(0, 0, 0) ? to_it : P.at(across) - here;
     };
     look_at(ShadingGrid::kFirstU, u == 0, vertex + 1);
     look_at(ShadingGrid::kLastU, u == grid.shape.nu, vertex - 1);
