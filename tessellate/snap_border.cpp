@@ -28,6 +28,7 @@ void snap_border_parameters(const Edges& edges, const Subpatch& subpatch,
                vertex == shape.row_index(shape.nu, shape.nv);
     };
     const bool is_linear = edges.surface->is_linear(subpatch.face);
+    const float last = edges.surface->last_parameter(subpatch.face);
     std::array<bool, 4> pole;
     for (int s = 0; s < 4; ++s) pole[s] = is_point(edges, sides[s]);
     int first_of_side = 0, side = -1;
@@ -47,7 +48,7 @@ void snap_border_parameters(const Edges& edges, const Subpatch& subpatch,
         const float share = (parameter - on.begin) / (on.end - on.begin);
         const int axis = side == kBottom || side == kTop ? 0 : 1;
         const float own = subpatch.lo[axis] + (subpatch.hi[axis] - subpatch.lo[axis]) * share;
-        uv[at.vertex][axis] = std::clamp(own, 0.0f, edges.surface->last_parameter(subpatch.face));
+        uv[at.vertex][axis] = std::clamp(own, 0.0f, last);
     }
     for (const BorderVertex& at : border)
         if (at.corner >= 0 && !pole[at.side] && (corners || !is_own_corner(at.vertex)))

@@ -3,24 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 #include "composite/displays/compressions.h"
 #include "composite/displays/exr_attributes.h"
 #include "composite/displays/pixel_types.h"
+#include "composite/displays/small_letters.h"
 #include "core/scene/deep_pictures.h"
 #include "core/scene/light_groups.h"
 
 namespace trapeze {
 namespace {
 
-/// Names of drivers, modes and extensions are compared without regard to case.
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
-
+/// In small letters: names of drivers and extensions are compared without regard to case.
 struct NamedFormat {
     std::string_view name;
     FileFormat format;
@@ -50,19 +45,19 @@ std::optional<FileFormat> look_up(const Table& table, std::string_view name) {
 }
 
 std::optional<FileFormat> format_by_extension(const std::string& file) {
-    return look_up(kExtensions, lower(std::filesystem::path(file).extension().string()));
+    return look_up(kExtensions, in_small_letters(std::filesystem::path(file).extension().string()));
 }
 
 /// Whether the driver would open a window, which this program does not.
 bool opens_window(const Display& display) {
-    return std::find(std::begin(kWindowDrivers), std::end(kWindowDrivers), lower(display.type)) !=
+    return std::find(std::begin(kWindowDrivers), std::end(kWindowDrivers), in_small_letters(display.type)) !=
            std::end(kWindowDrivers);
 }
 
 /// Whether two displays show the same of the picture, whether with alpha or without.
 bool show_the_same(const Display& a, const Display& b) {
     const auto without_alpha = [](const Display& display) {
-        const std::string mode = lower(display.mode.empty() ? "rgba" : display.mode);
+        const std::string mode = in_small_letters(display.mode.empty() ? "rgba" : display.mode);
         return mode.starts_with("rgba") ? mode.substr(0, 3) + mode.substr(4) : mode;
     };
     return without_alpha(a) == without_alpha(b);
@@ -89,7 +84,7 @@ std::string usual_path(const DisplayPlan& plan) {
 
 /// Chooses format and path by driver and extension. False for driver "null".
 bool choose_format(const Display& display, Diagnostics& diagnostics, DisplayPlan& plan) {
-    const std::string driver = lower(display.type);
+    const std::string driver = in_small_letters(display.type);
     if (driver == "null") return false;
     plan.path = display.name;
     plan.depth_map = makes_depth_map(display);
@@ -218,7 +213,7 @@ void choose_compression(const Display& display, Diagnostics& diagnostics, Displa
         asked = display.parameters.find("compression");
     if (!asked || asked->strings.empty()) return;
     const std::string& name = asked->strings.front();
-    const auto compression = compression_named(plan.format, lower(name));
+    const auto compression = compression_named(plan.format, in_small_letters(name));
     if (compression && plan.deep && !holds_deep(*compression)) {
         diagnostics.warning(
             display.location,
@@ -242,7 +237,7 @@ void choose_compression(const Display& display, Diagnostics& diagnostics, Displa
 /// "string storage" "tiled", with "int tilesize" [64].
 void choose_storage(const Display& display, Diagnostics& diagnostics, DisplayPlan& plan) {
     constexpr int kUsualTileSide = 64, kMostTileSide = 4096;
-    const std::string storage = lower(display.parameters.string_or("storage", "scanline"));
+    const std::string storage = in_small_letters(display.parameters.string_or("storage", "scanline"));
     const bool is_tiled = storage == "tiled";
     if (!is_tiled && storage == "scanline") return;
     if (!is_tiled || plan.format != FileFormat::OpenExr) {
@@ -364,7 +359,7 @@ std::optional<DisplayPlan> plan_display(const Display& display, const Options& o
         const std::string which = display.name.empty() ? "" : fmt::format(" of \"{}\"", display.name);
         diagnostics.warning(display.location,
                             fmt::format("Display{}: no window (\"{}\") is opened; see \"{}\"", which,
-                                        lower(display.type), file->name),
+                                        in_small_letters(display.type), file->name),
                             fmt::format("display-window {} beside {}", display.name, file->name));
         return {};
     }

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <string>
 
+#include "composite/displays/small_letters.h"
 #include "core/colors/transfer.h"
 
 namespace trapeze {
@@ -56,8 +56,7 @@ void check_own(const Display& display, Diagnostics& diagnostics, const DisplayPl
 /// "type" or OpenEXR's own name for it, in small letters; empty where it is not known.
 std::string pixel_type(const Display& display, Diagnostics& diagnostics, const DisplayPlan& plan) {
     const ParameterList& list = display.parameters;
-    std::string type = list.string_or("exrpixeltype", list.string_or("type", ""));
-    std::ranges::transform(type, type.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string type = in_small_letters(list.string_or("exrpixeltype", list.string_or("type", "")));
     if (type.empty() || type == "float" || type == "half") return type;
     tell(display, diagnostics, plan,
          fmt::format("type \"{}\" is neither \"half\" nor \"float\"; it is ignored", type));

@@ -81,6 +81,7 @@ size_t RayWorld::bytes() const {
 }
 
 size_t RayWorld::list_bytes() const {
+    // Asked for when no shader runs any more.
     const size_t of_surfels = surfel_dicer_ ? surfel_dicer_->tessellation().bytes() : 0;
     return of_surfels + sum_of([](const RayLevel& level) { return level.dicer().tessellation().bytes(); });
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <utility>
 
 #include "core/grid.h"
 
@@ -40,17 +39,24 @@ RectanglePixels pixels_of(const ScreenMetric& metric, std::span<const V3f, 4> co
     return {std::max(counted(0), counted(1)), std::max(counted(2), counted(3)), counted(4)};
 }
 
-/// Whether a bilinear rectangle turns over within itself, so that its outline is a curve: at some corner it
-/// turns the other way.
-bool is_folded(std::span<const V3f, 4> corners, const V3f& normal) {
-    const V3f bottom = corners[1] - corners[0], top = corners[3] - corners[2];
-    const V3f left = corners[2] - corners[0], right = corners[3] - corners[1];
-    const float least = -kRounding * (bottom + top).cross(left + right).length();
-    for (const auto& [u, v] :
-         {std::pair(bottom, left), std::pair(bottom, right), std::pair(top, left), std::pair(top, right)})
-        if (u.cross(v).dot(normal) < least) return true;
-    return false;
-}
+/// Cross products of the sides at each corner; the longest one tells the plane, also of a rectangle whose
+/// sides cross, of which halves turn either way.
+struct CornerTurns {
+    std::array<V3f, 4> all;
+    V3f longest;
+
+    explicit CornerTurns(std::span<const V3f, 4> corners) {
+        const V3f bottom = corners[1] - corners[0], top = corners[3] - corners[2];
+        const V3f left = corners[2] - corners[0], right = corners[3] - corners[1];
+        all = {bottom.cross(left), bottom.cross(right), top.cross(left), top.cross(right)};
+        longest = *std::ranges::max_element(all, {}, [](const V3f& turn) { return turn.length(); });
+    }
+    /// Whether the rectangle turns over within itself, so that its outline is a curve.
+    bool are_of_a_fold() const {
+        const float least = -kRounding * longest.dot(longest);
+        return std::ranges::any_of(all, [&](const V3f& turn) { return turn.dot(longest) < least; });
+    }
+};
 
 /// Whether a face is flat enough for sides of so many pixels; `corners` key by key.
 bool is_flat(const ScreenMetric& metric, std::span<const V3f> corners, bool is_rigid, float fine) {
@@ -61,15 +67,14 @@ bool is_flat(const ScreenMetric& metric, std::span<const V3f> corners, bool is_r
         if (twisted.length() <= kRounding * size) continue;
         // Flat at each key need not be flat between them.
         if (!is_rigid) return false;
-        const V3f twice_area = across.cross(other);
+        const CornerTurns turns(at);
         const auto [u, v, pixels] = pixels_of(metric, at);
         const float pixels_of_one = pixels / twisted.length(), most = kFlatOfSide * fine;
         // A face that is nearly a line lies near it, whatever its normal.
-        if (pixels_of_one * twice_area.length() / size <= most) continue;
-        const V3f normal = twice_area.normalized();
-        if (is_folded(at, normal)) return false;
+        if (pixels_of_one * turns.longest.length() / size <= most) continue;
+        if (turns.are_of_a_fold()) return false;
         const float largest = fine * kLargestFlatTimes;
-        const float off = pixels_of_one * std::abs(twisted.dot(normal)) /
+        const float off = pixels_of_one * std::abs(twisted.dot(turns.longest.normalized())) /
                           (4 * std::max(u / largest, 1.0f) * std::max(v / largest, 1.0f));
         if (!(off <= most)) return false;
     }

@@ -53,9 +53,10 @@ TEST(FlatFaces, HaveFewMicropolygons) {
 
 TEST(FlatFaces, AreNotThoseThatBend) {
     // Flat, but its lines cross, and its outline is curved.
+    const std::string crossed = "Patch \"bilinear\" \"P\" [-1 -1 0 -1 0 0 0 0 0 1 -1 0] ";
     const std::string folded = "Patch \"bilinear\" \"P\" [-1 -1 0 1 -1 0 -1 1 0 -.95 -.95 0] ";
     for (const std::string& thing :
-         {bent_patch(.1f), folded, std::string("Sphere 1 -1 1 360 "),
+         {bent_patch(.1f), folded, crossed, std::string("Sphere 1 -1 1 360 "),
           "Attribute \"displacementbound\" \"sphere\" [.1] " + kSquareOfTwo,
           std::string("Patch \"bicubic\" \"P\" [-1 -1 0 -.3 -1 0 .3 -1 0 1 -1 0 -1 -.3 0 -.3 -.3 0 .3 -.3 0 "
                       "1 -.3 0 -1 .3 0 -.3 .3 0 .3 .3 0 1 .3 0 -1 1 0 -.3 1 0 .3 1 0 1 1 0] "),
