@@ -124,7 +124,7 @@ TEST(SingleRay, GoesOnFromHitToHit) {
                                       [&](const Hit& hit) { truth.push_back(hit); });
         std::sort(truth.begin(), truth.end(), in_front);
         most = std::max(most, truth.size());
-        for_each_target([&] {
+        for_each_target([&, &ray = ray, &range = range] {
             std::vector<Hit> found;
             Hit from = kFirstHit;
             DepthRange rest = range;
