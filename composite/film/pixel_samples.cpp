@@ -58,7 +58,7 @@ void PixelSamples::see_plain_layers(const FilmPart& part, size_t first) {
     const float* planes[kLayerPlanes];
     for (size_t k = 0; k < kLayerPlanes; ++k) planes[k] = hit_layers_.plane(k);
     float* const rgba[4] = {colors_[0], colors_[1], colors_[2], colors_[3]};
-    composite_samples({first_hit, count(), planes}, rgba, nearest_.data());
+    composite_samples({first_hit, count(), planes, hit_layers_.places().data()}, rgba, nearest_.data());
     sees_something_ = first_hit[count()] > first_hit[0];
     for (size_t s = 0; s < count(); ++s) {
         has_hits_[s] = first_hit[s + 1] > first_hit[s];

@@ -1,6 +1,7 @@
 #include "composite/layers/composite_samples.h"
 
 #include <algorithm>
+#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "composite/layers/composite_samples.cpp"
@@ -31,14 +32,35 @@ HWY_INLINE FloatLanes hiding(FloatLanes opacity) {
     return hn::IfThenElse(hn::Lt(opacity, zero), zero, hn::IfThenElse(hn::Lt(one, opacity), one, opacity));
 }
 
-/// Adds layers, where samples have one: those with these numbers.
-HWY_INLINE void add_layers(const float* const* planes, IntLanes layer, hn::Mask<F> has_one, SumLanes& sum) {
+/// Where layers are in the planes, of lanes that have one.
+struct PlaneLanes {
+    bool follow;  ///< each other, from `start` on
+    uint32_t start;
+    IntLanes places;  ///< where they do not
+
+    HWY_INLINE FloatLanes of(const float* plane) const {
+        const F d;
+        return follow ? hn::LoadU(d, plane + start) : hn::GatherIndex(d, plane, places);
+    }
+};
+/// Layers that all of the samples have, the first of them layer `first`.
+HWY_INLINE PlaneLanes places_of_all(const LayersOfSamples& in, int32_t first) {
+    return {true, in.places ? in.places[first] : static_cast<uint32_t>(first), hn::Zero(I())};
+}
+/// Layers by their numbers.
+HWY_INLINE PlaneLanes places_of_some(const LayersOfSamples& in, IntLanes layers) {
+    if (!in.places) return {false, 0, layers};
+    return {false, 0, hn::GatherIndex(I(), reinterpret_cast<const int32_t*>(in.places), layers)};
+}
+
+/// Adds layers, where samples have one.
+HWY_INLINE void add_layers(const float* const* planes, const PlaneLanes& at, IntLanes layer,
+                           hn::Mask<F> has_one, SumLanes& sum) {
     const F d;
     const FloatLanes zero = hn::Zero(d);
     auto traceless = has_one;
     for (int c = 0; c < 3; ++c) {
-        const FloatLanes color = hn::GatherIndex(d, planes[c], layer),
-                         opacity = hn::GatherIndex(d, planes[3 + c], layer), hides = hiding(opacity);
+        const FloatLanes color = at.of(planes[c]), opacity = at.of(planes[3 + c]), hides = hiding(opacity);
         traceless = hn::And(traceless, hn::And(hn::Eq(color, zero), hn::Eq(opacity, zero)));
         const auto add = [&](FloatLanes& to, FloatLanes value) HWY_ATTR {
             to = hn::IfThenElse(has_one, hn::Add(to, hn::Mul(sum.transmission[c], value)), to);
@@ -69,11 +91,11 @@ HWY_INLINE void composite_lanes(const LayersOfSamples& in, size_t sample, float*
     const I di;
     const size_t count = std::min(in.count - sample, hn::Lanes(d));
     alignas(64) int32_t begin[kMostLanes] = {}, end[kMostLanes] = {};
-    int32_t most = 0;
+    int32_t least = std::numeric_limits<int32_t>::max(), most = 0;
     for (size_t i = 0; i < count; ++i) {
         begin[i] = static_cast<int32_t>(in.first[sample + i] - in.first[0]);
         end[i] = static_cast<int32_t>(in.first[sample + i + 1] - in.first[0]);
-        most = std::max(most, end[i] - begin[i]);
+        least = std::min(least, end[i] - begin[i]), most = std::max(most, end[i] - begin[i]);
     }
     SumLanes sum;
     for (int c = 0; c < 3; ++c) {
@@ -91,7 +113,9 @@ HWY_INLINE void composite_lanes(const LayersOfSamples& in, size_t sample, float*
         const auto has_one = hn::AndNot(hidden, hn::RebindMask(d, hn::Lt(layer, last)));
         if (hn::AllFalse(d, has_one)) break;
         // Others may ask for any layer that is there.
-        add_layers(in.planes, hn::IfThenElseZero(hn::RebindMask(di, has_one), layer), has_one, sum);
+        const IntLanes numbers = hn::IfThenElseZero(hn::RebindMask(di, has_one), layer);
+        const PlaneLanes at = k < least ? places_of_all(in, begin[0] + k) : places_of_some(in, numbers);
+        add_layers(in.planes, at, numbers, has_one, sum);
     }
     alignas(64) float numbers[4][kMostLanes];
     alignas(64) int32_t seen[kMostLanes];

@@ -6,11 +6,14 @@
 
 namespace trapeze {
 
-/// Layers that lie in planes, of samples in a row.
+/// Layers that lie in planes (HitLayers), of samples in a row.
 struct LayersOfSamples {
     const uint32_t* first;       ///< sample s has layers first[s] - first[0] to first[s + 1] - first[0]
     size_t count;                ///< samples
-    const float* const* planes;  ///< Ci, Oi; a number for each layer
+    const float* const* planes;  ///< Ci, Oi; a number for each layer, kLayerPadding more may be read
+    /// Where in the planes each layer is; null: in their order, one a sample. The n-th layers of samples in a
+    /// row that have so many follow each other.
+    const uint32_t* places = nullptr;
 };
 
 /// Composites each sample's layers, front to back, to the bit as resolve_layers() does where nothing is

@@ -69,7 +69,8 @@ TEST(CompositeSamples, AreThoseOfEachSampleAloneOnAllTargets) {
                 std::vector<int32_t> nearest(count);
                 float* const rgba[4] = {colors[0].data(), colors[1].data(), colors[2].data(),
                                         colors[3].data()};
-                composite_samples({pile.hits.first.data(), count, planes}, rgba, nearest.data());
+                composite_samples({pile.hits.first.data(), count, planes, layers.places().data()}, rgba,
+                                  nearest.data());
                 for (size_t s = 0; s < count; ++s) {
                     const SampleColor alone =
                         resolve_layers(pile.samples.rays[s], pile.hits.of(s), pile.grids);

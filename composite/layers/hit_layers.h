@@ -1,10 +1,13 @@
 /// Colours and opacities of hits, many at a time: what resolve_layers() composites.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "composite/layers/corner_cache.h"
 #include "composite/layers/interpolate_hits.h"
+#include "composite/layers/ray_planes.h"
 #include "core/grid.h"
 #include "core/hit_buffer.h"
 #include "core/math.h"
@@ -23,8 +26,9 @@ struct Layer {
 /// found.
 Layer layer_at(const AxisRay& ray, const Grid& grid, const MicropolygonId& id);
 
-/// Layers of hits that lie in a row in a HitBuffer, in planes. One serves for many rows, and keeps its
-/// memory; all are of the same grids, until forget().
+/// Layers of hits that lie in a row in a HitBuffer, in planes: all samples' first hits, then their second
+/// ones, and so on, since neighbours see the same micropolygons layer by layer. One serves for many rows, and
+/// keeps its memory; all are of the same grids, until forget().
 class HitLayers {
   public:
     void forget() { corners_.forget(); }
@@ -36,7 +40,7 @@ class HitLayers {
 
     /// The layer of hit `index` of the buffer.
     Layer operator[](size_t index) const {
-        const size_t i = index - first_;
+        const size_t i = one_each_ ? index - first_ : place_of_[index - first_];
         return {{planes_[0][i], planes_[1][i], planes_[2][i]}, {planes_[3][i], planes_[4][i], planes_[5][i]}};
     }
 
@@ -44,14 +48,25 @@ class HitLayers {
     /// planes are then those of the samples.
     bool all_cover() const { return kinds_.all_cover; }
     bool all_plain() const { return kinds_.all_plain; }
-    /// Ci or Oi of all hits: plane 0 to kLayerPlanes.
+    /// Ci or Oi of all hits: plane 0 to kLayerPlanes. kLayerPadding further numbers may be read.
     const float* plane(size_t n) const { return planes_[n].data(); }
+    /// Where in the planes each hit is, counted from the first one; empty: in their order, one a sample.
+    std::span<const uint32_t> places() const {
+        return one_each_ ? std::span<const uint32_t>() : std::span<const uint32_t>(place_of_);
+    }
 
   private:
-    size_t first_ = 0;  ///< number of the first hit whose layer is here
+    void order_by_layer(const Hit* hits, std::span<const uint32_t> first_hits);
+
+    size_t first_ = 0;      ///< number of the first hit whose layer is here
+    bool one_each_ = true;  ///< each sample has one hit
     HitKinds kinds_;
     std::vector<float> planes_[kLayerPlanes];
-    std::vector<uint32_t> sample_of_;  ///< of each hit
+    RayPlanes rays_;
+    std::vector<uint32_t> sample_at_;  ///< at each place of the planes
+    std::vector<uint64_t> id_at_;      ///< Hit::id
+    std::vector<uint32_t> place_of_;   ///< of each hit
+    std::vector<uint32_t> next_of_;    ///< places for the next hits of each layer
     CornerCache corners_;
 };
 

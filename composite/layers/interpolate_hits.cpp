@@ -56,6 +56,14 @@ HWY_INLINE CornerLanes load_corners(const MicropolygonCorners* const* of_hits, c
 }
 #endif
 
+/// The same where all hits are on one micropolygon.
+template <class QuadOf>
+HWY_INLINE CornerLanes load_corners(const MicropolygonCorners& of_all, const QuadOf& quad_of) {
+    const F d;
+    const float* const quad = quad_of(of_all);
+    return {{hn::Set(d, quad[0]), hn::Set(d, quad[1]), hn::Set(d, quad[2]), hn::Set(d, quad[3])}};
+}
+
 /// A channel from the four corners: blend_corners() in lanes.
 HWY_INLINE FloatLanes blend(const WeightLanes<FloatLanes>& w, const CornerLanes& at) {
     const FloatLanes first = at.k[0];
@@ -115,45 +123,74 @@ HWY_INLINE void fill_corners(const Grid& grid, const MicropolygonId& id, int seg
     if (!grid.opaque) copy_colors(grid, id, 3, to.opacity);
 }
 
+/// Numbers of the rays of as many hits as there are lanes.
+struct RayLanes {
+    const std::array<const float*, RayPlanes::kPlanes>& planes;
+    const uint32_t* numbers;
+    bool follow;  ///< each other, as mostly those of samples in a row do
+
+    HWY_INLINE FloatLanes of(RayPlanes::Plane plane) const {
+        const F d;
+        if (follow) return hn::LoadU(d, planes[plane] + numbers[0]);
+        const auto lanes = hn::Load(hn::RebindToSigned<F>(), reinterpret_cast<const int32_t*>(numbers));
+        return hn::GatherIndex(d, planes[plane], lanes);
+    }
+};
+
 /// Hits on smooth grids, in lanes until these are full.
 class HitLanes {
   public:
-    HitLanes(CornerCache& cache, float* const* planes) : cache_(cache), planes_(planes) {
+    HitLanes(CornerCache& cache, const HitsToInterpolate& task) : cache_(cache), task_(task) {
         cache_.begin_batch();
     }
 
-    /// `place`: of the hit's numbers in planes.
-    HWY_INLINE void add(const MicropolygonCorners* corners, const Grid& grid, const AxisRay& ray,
-                        float local_time, size_t place) {
-        corners_[count_] = corners, places_[count_] = place;
-        ox_[count_] = ray.ox, oy_[count_] = ray.oy, oz_[count_] = ray.oz;
-        ux_[count_] = ray.ux, uy_[count_] = ray.uy, local_time_[count_] = local_time;
-        opaque_[count_] = grid.opaque ? ~0u : 0u;
+    /// Hits in a row of one micropolygon and segment, as many as there is room for, of places `begin` to
+    /// `end` in the planes; returns the place behind them. Of a grid that does not move local times are 0.
+    HWY_INLINE size_t add(const MicropolygonCorners* corners, const Grid& grid, size_t begin, size_t end) {
+        const size_t count = std::min(end - begin, kLanes - count_);
+        if (count_ == 0) begin_ = begin;
+        follow_ &= begin == begin_ + count_;
+        differ_ |= count_ > 0 && corners != corners_[0];
         moves_ |= grid.moves(), some_see_through_ |= !grid.opaque;
-        ++count_;
+        for (size_t i = count_, place = begin; i < count_ + count; ++i, ++place) {
+            corners_[i] = corners, places_[i] = place, rays_[i] = task_.ray_of[place];
+            opaque_[i] = grid.opaque ? ~0u : 0u;
+            rays_follow_ &= rays_[i] == rays_[0] + i;
+            local_time_[i] = segment_at(task_.rays[task_.ray_of[place]].time, grid.key_count).local;
+        }
+        count_ += count;
+        return begin + count;
     }
     bool is_full() const { return count_ == kLanes; }
 
     void interpolate() {
         if (count_ == 0) return;
         std::fill(corners_ + count_, corners_ + kLanes, corners_[0]);
-        const bool in_a_row = count_ == kLanes && places_[count_ - 1] == places_[0] + count_ - 1;
+        std::fill(rays_ + count_, rays_ + kLanes, rays_[0]);
+        const bool in_a_row = count_ == kLanes && follow_;
         alignas(64) float numbers[kLayerPlanes][kLanes];
         float* to[kLayerPlanes];
-        for (size_t k = 0; k < kLayerPlanes; ++k) to[k] = in_a_row ? planes_[k] + places_[0] : numbers[k];
-        for (size_t i = 0; i < kLanes; i += hn::Lanes(F())) interpolate_lanes(i, to);
+        for (size_t k = 0; k < kLayerPlanes; ++k) to[k] = in_a_row ? task_.planes[k] + begin_ : numbers[k];
+        for (size_t i = 0; i < kLanes; i += hn::Lanes(F()))
+            if (differ_)
+                interpolate_lanes(i, corners_ + i, to);
+            else
+                interpolate_lanes(i, *corners_[0], to);
         for (size_t k = 0; k < kLayerPlanes && !in_a_row; ++k)
-            for (size_t i = 0; i < count_; ++i) planes_[k][places_[i]] = numbers[k][i];
+            for (size_t i = 0; i < count_; ++i) task_.planes[k][places_[i]] = numbers[k][i];
         count_ = 0;
-        moves_ = some_see_through_ = false;
+        follow_ = rays_follow_ = true;
+        differ_ = moves_ = some_see_through_ = false;
         cache_.begin_batch();
     }
 
   private:
-    HWY_INLINE void interpolate_lanes(size_t i, float* const* to) const {
+    /// `corners`: of each lane, or those of all.
+    template <class Corners>
+    HWY_INLINE void interpolate_lanes(size_t i, const Corners& corners, float* const* to) const {
         const F d;
         const FloatLanes local = hn::Load(d, local_time_ + i), one = hn::Set(d, 1.0f);
-        const MicropolygonCorners* const* const corners = corners_ + i;
+        const RayLanes ray{task_.rays.planes(), rays_ + i, rays_follow_ && count_ == kLanes};
         CornerLanes position[3];
         for (int c = 0; c < 3; ++c) {
             position[c] = load_corners(corners, [c](const MicropolygonCorners& m) { return m.start[c]; });
@@ -164,8 +201,8 @@ class HitLanes {
         }
         const auto vertex = [&](int component, int corner) HWY_ATTR { return position[component].k[corner]; };
         const WeightLanes<FloatLanes> w =
-            hit_weights(d, quad_lanes(hn::Load(d, ox_ + i), hn::Load(d, oy_ + i), hn::Load(d, oz_ + i),
-                                      hn::Load(d, ux_ + i), hn::Load(d, uy_ + i), vertex));
+            hit_weights(d, quad_lanes(ray.of(RayPlanes::kOx), ray.of(RayPlanes::kOy), ray.of(RayPlanes::kOz),
+                                      ray.of(RayPlanes::kUx), ray.of(RayPlanes::kUy), vertex));
         for (int c = 0; c < 3; ++c) {
             const auto colors =
                 load_corners(corners, [c](const MicropolygonCorners& m) { return m.color[c]; });
@@ -185,27 +222,30 @@ class HitLanes {
     }
 
     CornerCache& cache_;
-    float* const* planes_;
+    const HitsToInterpolate& task_;
     const MicropolygonCorners* corners_[kLanes];
     size_t places_[kLanes];
-    alignas(64) float ox_[kLanes] = {}, oy_[kLanes] = {}, oz_[kLanes] = {}, ux_[kLanes] = {},
-                      uy_[kLanes] = {}, local_time_[kLanes] = {};
+    alignas(64) uint32_t rays_[kLanes] = {};
+    alignas(64) float local_time_[kLanes] = {};
     alignas(64) uint32_t opaque_[kLanes] = {};  ///< all bits set where it holds
-    size_t count_ = 0;
+    size_t count_ = 0, begin_ = 0;
+    bool follow_ = true, rays_follow_ = true;  ///< each other: places, from begin_ on; rays
+    bool differ_ = false;                      ///< corners
     bool moves_ = false, some_see_through_ = false;
 };
 
 /// Hits in a row of one micropolygon: places `begin` to `end`. A sample mostly sees what the one before it
-/// sees.
+/// sees, layer by layer.
 struct HitRow {
     size_t begin, end;
     MicropolygonId id;
 };
 
-HitRow row_from(std::span<const Hit> hits, size_t begin) {
+HitRow row_from(const HitsToInterpolate& task, size_t begin) {
+    const uint64_t id = task.id(begin);
     size_t end = begin + 1;
-    while (end < hits.size() && hits[end].id == hits[begin].id) ++end;
-    return {begin, end, MicropolygonId::unpack(hits[begin].id)};
+    while (end < task.count && task.id(end) == id) ++end;
+    return {begin, end, MicropolygonId::unpack(id)};
 }
 
 void put_constant(const HitRow& row, const Grid& grid, float* const* planes) {
@@ -216,31 +256,36 @@ void put_constant(const HitRow& row, const Grid& grid, float* const* planes) {
     }
 }
 
+/// The end of the hits from `begin` on, within a row, whose rays meet the grid in one segment of its motion.
+HWY_INLINE size_t end_of_segment(const HitsToInterpolate& task, const Grid& grid, size_t begin,
+                                 size_t row_end, int segment) {
+    if (grid.key_count <= 2) return row_end;
+    size_t end = begin + 1;
+    while (end < row_end && segment_at(task.rays[task.ray_of[end]].time, grid.key_count).index == segment)
+        ++end;
+    return end;
+}
+
 HWY_INLINE void add_smooth(const HitRow& row, const Grid& grid, const HitsToInterpolate& task,
                            CornerCache& cache, HitLanes& lanes) {
-    const MicropolygonCorners* corners = nullptr;  // of a segment
-    int of_segment = -1;
-    for (size_t place = row.begin; place < row.end; ++place) {
-        const AxisRay& ray = task.rays[task.ray_of[place]];
-        const MotionSegment segment = segment_at(ray.time, grid.key_count);
-        if (!corners || segment.index != of_segment) {
-            of_segment = segment.index;
-            corners = cache.find(row.id.packed() | static_cast<uint64_t>(segment.index) << 40,
-                                 [&](MicropolygonCorners& to)
-                                     HWY_ATTR { fill_corners(grid, row.id, segment.index, to); });
+    for (size_t place = row.begin; place < row.end;) {
+        const int segment = segment_at(task.rays[task.ray_of[place]].time, grid.key_count).index;
+        const size_t end = end_of_segment(task, grid, place, row.end, segment);
+        while (place < end) {
+            const MicropolygonCorners* const corners = cache.find(
+                row.id.packed() | static_cast<uint64_t>(segment) << 40,
+                [&](MicropolygonCorners& to) HWY_ATTR { fill_corners(grid, row.id, segment, to); });
+            place = lanes.add(corners, grid, place, end);
+            if (lanes.is_full()) lanes.interpolate();
         }
-        lanes.add(corners, grid, ray, segment.local, place);
-        if (!lanes.is_full()) continue;
-        lanes.interpolate();
-        corners = nullptr;  // the next batch has to ask again
     }
 }
 
 HitKinds interpolate_hits_in_lanes(const HitsToInterpolate& task, CornerCache& cache) {
-    HitLanes lanes(cache, task.planes);
+    HitLanes lanes(cache, task);
     HitKinds kinds;
-    for (size_t place = 0; place < task.hits.size();) {
-        const HitRow row = row_from(task.hits, place);
+    for (size_t place = 0; place < task.count;) {
+        const HitRow row = row_from(task, place);
         place = row.end;
         if (row.id.grid >= task.grids.grids.size()) {
             kinds = {false, false};

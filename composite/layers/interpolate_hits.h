@@ -6,21 +6,29 @@
 #include <span>
 
 #include "composite/layers/corner_cache.h"
+#include "composite/layers/ray_planes.h"
 #include "core/grid.h"
 #include "core/hit_buffer.h"
-#include "core/rays.h"
 
 namespace trapeze {
 
 /// Planes of hits: Ci red, green and blue, then Oi.
 inline constexpr size_t kLayerPlanes = 6;
+/// Numbers behind the last one of a plane that may be read.
+inline constexpr size_t kLayerPadding = 16;
 
+/// Hits in the order of their planes. Where those follow each other that lie on one micropolygon, it is
+/// looked up once, and its corners are the same in all lanes.
 struct HitsToInterpolate {
-    std::span<const Hit> hits;
-    const uint32_t* ray_of;  ///< of each hit
-    const AxisRay* rays;
+    const Hit* hits;
+    const uint64_t* ids;     ///< Hit::id of each; null: those of `hits`
+    const uint32_t* ray_of;  ///< of each
+    size_t count;
+    RayPlanes& rays;
     const Grids& grids;
-    float* const* planes;  ///< a number for each hit
+    float* const* planes;  ///< a number for each
+
+    uint64_t id(size_t place) const { return ids ? ids[place] : hits[place].id; }
 };
 
 /// What is known of some hits.
