@@ -131,7 +131,9 @@ TEST(NamedValues, AttributesOfRequests) {
         return find_attribute_value(attributes, &primitive, name);
     };
     EXPECT_EQ(texts(find("Ri:Orientation")), Texts{"outside"});
-    primitive.camera_from_object[0].setScale(V3f(1, 1, -1));  // normals are turned over so that they stay
+    M44f mirror;
+    mirror.setScale(V3f(1, 1, -1));
+    primitive.camera_from_object = {mirror};  // normals are turned over so that they stay
     EXPECT_EQ(texts(find("Ri:Orientation")), Texts{"inside"});
     attributes.reverse_orientation = true;
     EXPECT_EQ(texts(find("Ri:Orientation")), Texts{"outside"});

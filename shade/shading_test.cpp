@@ -154,7 +154,9 @@ TEST_P(BatchOf, GivesEachGridTheSameBits) {
     scene.displacement("dented");
     scene.declare("Kd", {StorageClass::Uniform, ValueType::Float, 1});
     scene.scene.primitives.push_back(scene.scene.primitives[0]);
-    scene.scene.primitives[1].camera_from_object[0][3][0] = 2;
+    M44f moved = scene.scene.primitives[0].camera_from_object.front();
+    moved[3][0] = 2;
+    scene.scene.primitives[1].camera_from_object = {moved};
     std::vector<ShadingGrid> grids;
     for (uint32_t i = 0; i < 40; ++i) {
         ShadingGrid& grid = grids.emplace_back(scene.grid(1 + static_cast<int>(i * 7 % 16), 1 + i % 3));

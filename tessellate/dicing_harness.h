@@ -48,7 +48,7 @@ struct TestScene {
         scene.options.width = 96, scene.options.height = 72;
         scene.options.near_clip = 1e-3f;
     }
-    TestScene& add(std::vector<std::shared_ptr<const Shape>> shapes, std::vector<M44f> camera_from_object) {
+    TestScene& add(ShapeKeys shapes, std::vector<M44f> camera_from_object) {
         Primitive primitive;
         primitive.attributes = attributes;
         primitive.shape_keys = std::move(shapes);

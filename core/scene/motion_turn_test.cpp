@@ -9,15 +9,17 @@ namespace {
 
 /// A space that turns about z by so many degrees at each key, and is moved and stretched besides.
 Primitive turning(std::initializer_list<float> degrees) {
-    Primitive primitive;
+    std::vector<M44f> poses;
     float key = 0;
     for (const float angle : degrees) {
         M44f m, turn, stretch;
         m.translate(V3f(1 + key, 2, 3 - key)), key += 1;
         turn.rotate(V3f(0, 0, angle * static_cast<float>(M_PI) / 180));
         stretch.scale(V3f(2, 3, 0.5f));
-        primitive.camera_from_object.push_back(stretch * turn * m);
+        poses.push_back(stretch * turn * m);
     }
+    Primitive primitive;
+    primitive.camera_from_object = std::move(poses);
     return primitive;
 }
 

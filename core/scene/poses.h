@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/math.h"
@@ -26,6 +29,33 @@ Matrix pose_at(std::span<const Matrix> keys, float time01) {
     const auto index = static_cast<size_t>(at.index);
     return keys[index] * (1 - part) + keys[index + 1] * part;
 }
+
+/// camera_from_object at the keys of a primitive: 1 or 2^m + 1 evenly spaced ones of the shutter. Never
+/// changed once made, so that primitives of one place share them.
+class SharedPoses {
+  public:
+    SharedPoses() = default;
+    SharedPoses(std::vector<M44f> keys) : keys_(std::make_shared<const std::vector<M44f>>(std::move(keys))) {}
+    SharedPoses(std::initializer_list<M44f> keys) : SharedPoses(std::vector<M44f>(keys)) {}
+
+    operator const std::vector<M44f>&() const { return keys(); }
+    const std::vector<M44f>& keys() const {
+        static const std::vector<M44f> none;
+        return keys_ ? *keys_ : none;
+    }
+    size_t size() const { return keys().size(); }
+    bool empty() const { return size() == 0; }
+    const M44f& front() const { return keys().front(); }
+    const M44f& back() const { return keys().back(); }
+    const M44f& operator[](size_t key) const { return keys()[key]; }
+    const M44f* data() const { return keys().data(); }
+    const M44f* begin() const { return data(); }
+    const M44f* end() const { return data() + size(); }
+    bool operator==(const SharedPoses& other) const { return keys() == other.keys(); }
+
+  private:
+    std::shared_ptr<const std::vector<M44f>> keys_;
+};
 
 /// Scene::held_from_camera at one of `keys` keys; at shutter open it is exactly the identity.
 inline M44f held_at(std::span<const M44f> held, int key, int keys) {

@@ -16,6 +16,7 @@
 #include "core/motion_keys.h"
 #include "core/scene/light_shape.h"
 #include "core/scene/parameters.h"
+#include "core/scene/poses.h"
 #include "core/scene/shapes.h"
 #include "core/scene/user_values.h"
 
@@ -191,9 +192,8 @@ struct Primitive {
     std::shared_ptr<const Attributes> attributes;
     /// Poses of a deforming shape at its own evenly spaced keys (1 or 2^m + 1 of them), all of one topology
     /// and with the same variables. Shared by object instances.
-    std::vector<std::shared_ptr<const Shape>> shape_keys;
-    /// camera_from_object at 1 or 2^m + 1 evenly spaced keys of the shutter.
-    std::vector<M44f> camera_from_object;
+    ShapeKeys shape_keys;
+    SharedPoses camera_from_object;
     SourceLocation location;
     int solid = -1;     ///< index of the leaf in Scene::solids that it bounds; -1: no part of a solid
     int instance = -1;  ///< number of the ObjectInstance that it came with, whose primitives follow each

@@ -2,8 +2,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
+#include <memory>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -138,6 +142,39 @@ using Topology =
 struct Shape {
     Topology topology;
     ParameterList variables;
+};
+
+/// Poses of a deforming shape; of most primitives there is one, which has its place here.
+class ShapeKeys {
+  public:
+    using Pointer = std::shared_ptr<const Shape>;
+
+    ShapeKeys() = default;
+    ShapeKeys(Pointer only) : one_(std::move(only)) {}
+    ShapeKeys(std::vector<Pointer> keys) {
+        if (keys.size() == 1)
+            one_ = std::move(keys.front());
+        else
+            several_ = std::move(keys);
+    }
+    ShapeKeys(std::initializer_list<Pointer> keys) : ShapeKeys(std::vector<Pointer>(keys)) {}
+
+    size_t size() const { return several_.empty() ? one_ != nullptr : several_.size(); }
+    bool empty() const { return size() == 0; }
+    const Pointer* data() const { return several_.empty() ? &one_ : several_.data(); }
+    const Pointer* begin() const { return data(); }
+    const Pointer* end() const { return data() + size(); }
+    const Pointer& front() const { return *data(); }
+    const Pointer& back() const { return data()[size() - 1]; }
+    const Pointer& operator[](size_t key) const { return data()[key]; }
+    /// Whether they are the same shapes, and not just equal ones.
+    bool operator==(const ShapeKeys&) const = default;
+    /// What it takes beside itself.
+    size_t allocated_bytes() const { return several_.capacity() * sizeof(Pointer); }
+
+  private:
+    Pointer one_;
+    std::vector<Pointer> several_;  ///< then one_ is null
 };
 
 /// Whether one shape in different places has different surfaces: it faces the camera, or is as fine as the

@@ -179,7 +179,7 @@ TEST(ReadMotion, ColoursOfPosesAreThoseAsTheShutterOpens) {
                                                       "shutter opens are used")));
         EXPECT_EQ(color(r), row.color) << row.shutter;
         EXPECT_EQ(r.primitive().shape_keys.size(), 2u) << "it deforms all the same";
-        EXPECT_EQ(r.primitive().shape_keys.at(1)->variables.find("P")->floats[2], 4);
+        EXPECT_EQ(r.primitive().shape_keys[1]->variables.find("P")->floats[2], 4);
     }
     EXPECT_THAT(read_colored_poses("0 1", red, red).messages, IsEmpty());
 }

@@ -39,13 +39,6 @@ bool is_finite(const M44f& m) {
     return sum == 0;
 }
 
-/// A primitive that does not deform has one key.
-std::vector<ShapePointer> only(ShapePointer shape) {
-    std::vector<ShapePointer> keys;
-    keys.push_back(std::move(shape));
-    return keys;
-}
-
 /// What unfolds from a flat shape, or from a point, is shaded as it begins to.
 void unfold_first(std::vector<M44f>& spaces) {
     constexpr float kBeginning = 1.0f / 16384;
@@ -79,6 +72,7 @@ void SceneBuilder::begin_world() {
     scene_ = Scene();
     solids_ = {};
     in_spaces_.clear();
+    last_place_ = {};
     instanced_primitives_ = 0, instances_ = 0;
 }
 
@@ -203,43 +197,56 @@ bool SceneBuilder::has_room(uint64_t bytes) {
     return false;
 }
 
+SceneBuilder::Place SceneBuilder::place_of(const MovingTransform& transform, const ShapeKeys& shape_keys) {
+    const float open = state_.options().shutter_open, close = state_.options().shutter_close;
+    if (last_place_.transform && last_place_.transform->is_same_chain(transform) &&
+        last_place_.open == open && last_place_.close == close)
+        return last_place_.place;
+    const int keys =
+        close > open ? keys_for_paths(transform, open, close, shape_keys, make_camera(state_.options())) : 1;
+    std::vector<M44f> poses;
+    poses.reserve(static_cast<size_t>(keys));
+    for (int k = 0; k < keys; ++k) poses.push_back(M44f(transform.at(key_time(open, close, k, keys))));
+    unfold_first(poses);
+    Place place;
+    if (std::ranges::all_of(poses, is_finite)) place.determinant = M44d(poses.front()).determinant();
+    place.poses = std::move(poses);
+    if (!transform.moves_between(open, close)) last_place_ = {transform, open, close, place};
+    return place;
+}
+
 /// The last step of a primitive: its keys of transformation, its attributes, and the scene. `solid` is the
 /// scene's that it bounds, or -1.
-void SceneBuilder::emit(const std::string& request, std::vector<ShapePointer> shape_keys,
-                        const GraphicsState& state, SourceLocation at, int solid) {
-    const MovingTransform& transform = state.transform;
-    const float open = state_.options().shutter_open, close = state_.options().shutter_close;
+void SceneBuilder::emit(const std::string& request, ShapeKeys shape_keys, const GraphicsState& state,
+                        SourceLocation at, int solid) {
     Primitive primitive;
     primitive.location = at;
     primitive.solid = solid;
     primitive.instance = instance_;
-    primitive.shape_keys = std::move(shape_keys);
-    const int keys = close > open ? keys_for_paths(transform, open, close, primitive.shape_keys,
-                                                   make_camera(state_.options()))
-                                  : 1;
-    primitive.camera_from_object.reserve(static_cast<size_t>(keys));
-    for (int k = 0; k < keys; ++k)
-        primitive.camera_from_object.push_back(M44f(transform.at(key_time(open, close, k, keys))));
+    const Place place = place_of(state.transform, shape_keys);
     // A singular transformation flattens the shape: it has no inside, and its normals no direction.
-    auto& spaces = primitive.camera_from_object;
-    unfold_first(spaces);
-    const double determinant = M44d(spaces.front()).determinant();
-    if (!std::all_of(spaces.begin(), spaces.end(), is_finite) || !(std::abs(determinant) > 0)) {
+    if (!(std::abs(place.determinant) > 0)) {
         const std::string what = request == report_.name() ? "" : request + ": ";
         report_.error(at, what + "the current transformation is singular; primitive skipped");
         return;
     }
+    primitive.shape_keys = std::move(shape_keys);
+    primitive.camera_from_object = place.poses;
     ++primitive_counts_.of(report_.summary().primitives, request);
     report_.summary().points += point_count(primitive.shape());
     if (primitive.key_count() > 1) ++report_.summary().moving_primitives;
     if (!keeps_geometry() || state.attributes->detail.seen().are_none()) return;
-    // Shared attributes take memory once.
+    // Shared attributes and poses take memory once.
     const std::shared_ptr<const Attributes> last = resolved_.attributes;
+    const bool is_elsewhere =
+        scene_.primitives.empty() ||
+        scene_.primitives.back().camera_from_object.data() != primitive.camera_from_object.data();
     // dPdu x dPdv in camera space is the transformed outward normal times the sign of the determinant.
-    primitive.attributes = resolved_attributes(state, spaces, determinant < 0);
+    primitive.attributes = resolved_attributes(state, place.poses, place.determinant < 0);
     if (const auto& emitter = state.attributes->emitter) primitive.emitter = emitter->light;
     uint64_t bytes = bytes_of(primitive);
     if (primitive.attributes != last) bytes += bytes_of(*primitive.attributes);
+    if (is_elsewhere) bytes += place.poses.size() * sizeof(M44f);
     if (!has_room(bytes) || !remember_spaces(state.scoped_spaces)) return;
     scene_.primitives.push_back(std::move(primitive));
 }
@@ -291,9 +298,10 @@ void SceneBuilder::add_shape(const std::string& request, Shape&& shape, uint64_t
     if (motion_.is_open())
         motion_.add_pose(std::move(shared));
     else if (object_)
-        add_to_object(request, only(std::move(shared)), {0.0f}, report_.at());
+        add_to_object(request, {std::move(shared)}, {0.0f}, report_.at());
     else
-        emit(request, only(std::move(shared)), state_.current(), report_.at(), solid_of_surface(solids_));
+        emit(request, ShapeKeys(std::move(shared)), state_.current(), report_.at(),
+             solid_of_surface(solids_));
 }
 
 /// Poses are made at the even keys of the shutter, which later stages want; an object keeps those given,

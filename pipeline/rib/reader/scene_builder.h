@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -106,8 +107,8 @@ class SceneBuilder {
     ShapePointer shared_or_new(Shape&& shape);
     void add_to_object(std::string request, std::vector<ShapePointer> shapes, std::vector<float> times,
                        SourceLocation at);
-    void emit(const std::string& request, std::vector<ShapePointer> shape_keys, const GraphicsState& state,
-              SourceLocation at, int solid);
+    void emit(const std::string& request, ShapeKeys shape_keys, const GraphicsState& state, SourceLocation at,
+              int solid);
     std::shared_ptr<const Attributes> resolved_attributes(const GraphicsState& state,
                                                           const std::vector<M44f>& camera_from_object,
                                                           bool mirrored);
@@ -146,6 +147,20 @@ class SceneBuilder {
     std::vector<std::pair<size_t, std::shared_ptr<const NamedSpaces>>> in_spaces_;
 
     NameCounts primitive_counts_;
+
+    /// Where a primitive is in the shutter.
+    struct Place {
+        SharedPoses poses;
+        double determinant = 0;  ///< of the first; what is not finite has none
+    };
+    Place place_of(const MovingTransform& transform, const ShapeKeys& shape_keys);
+    /// The last place that did not move, and the transformation that led there, which nobody changes from now
+    /// on: this is a copy.
+    struct {
+        std::optional<MovingTransform> transform;
+        float open = 0, close = 0;
+        Place place;
+    } last_place_;
 
     /// The last primitive's attributes, for the next ones that look alike.
     struct {

@@ -140,18 +140,20 @@ void count_value(OptionContext& r, const std::string& category, const Parameter&
 
 /// All values are kept for shaders (RISpec: attribute()); those that mean something here are taken too.
 void attribute(OptionContext& r, ArgumentCursor& c) {
+    static const std::string none;
     const std::string category = c.string("the category");
     const ParameterList values = r.parameters(c, Undeclared::Guess);
     for (const Parameter& value : values.values) {
         AttributeState& state = r.state.change_attributes();
         set_attribute_value(category, value, state);
         if (r.state.in_object()) state.own.set(category, value);
-        const std::string text = value.strings.empty() ? "" : value.strings[0];
-        if (category == "trimcurve" && value.name == "sense") set_trim_sense(r, text, state);
-        if (category == "identifier" && value.name == "name")
+        const std::string_view known = category, name = value.name;
+        const std::string& text = value.strings.empty() ? none : value.strings[0];
+        if (known == "trimcurve" && name == "sense") set_trim_sense(r, text, state);
+        if (known == "identifier" && name == "name")
             name_primitives(r.state, text, r.state.change_attributes(Own::Name));
         if (shading_rate_of(category, value)) r.state.change_attributes(Own::ShadingRate);
-        if (category != "Ri" || !execute_ri_value(r, value)) count_value(r, category, value);
+        if (known != "Ri" || !execute_ri_value(r, value)) count_value(r, category, value);
     }
 }
 

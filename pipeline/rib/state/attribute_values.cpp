@@ -9,20 +9,20 @@ namespace trapeze::rib {
 namespace {
 
 /// Older files say in words what newer ones say by numbers.
-bool is_on(const std::string& text) {
+bool is_on(std::string_view text) {
     return text != "0" && text != "off" && text != "no" && text != "false" && text != "invisible" &&
            text != "transparent";
 }
 
 /// Attribute "dice": see Attributes::Dice.
-void set_dice(Attributes::Dice& dice, const std::string& name, float value) {
+void set_dice(Attributes::Dice& dice, std::string_view name, float value) {
     if (name == "binary") dice.binary = value != 0;
     if (name == "rasterorient") dice.raster_oriented = value != 0;
     if (name == "minlength") dice.min_length = std::max(value, 0.0f);
 }
 
 /// States share values until one of them changes any: what is there already changes none.
-void keep(const std::string& category, const Parameter& value, UserValues& user) {
+void keep(std::string_view category, const Parameter& value, UserValues& user) {
     const Parameter* const old = user.find(category, value.name);
     if (!old || old->floats != value.floats || old->strings != value.strings ||
         old->declaration != value.declaration)
@@ -36,30 +36,31 @@ std::string switch_name(const LightInstance& light) {
 
 }  // namespace
 
-void set_attribute_value(const std::string& category, const Parameter& value, AttributeState& state) {
+void set_attribute_value(std::string_view category, const Parameter& value, AttributeState& state) {
     Attributes& a = state.attributes;
     keep(category, value, a.user);
     const float number = value.floats.empty() ? 0 : value.floats[0];
-    const std::string text = value.strings.empty() ? "" : value.strings[0];
-    if (category == "displacementbound" && value.name == "sphere")
+    const std::string_view name = value.name,
+                           text = value.strings.empty() ? std::string_view() : value.strings[0];
+    if (category == "displacementbound" && name == "sphere")
         state.displacement_bound.sphere = std::abs(number);
-    if (category == "bound" && value.name == "displacement")  // before RISpec 3.1
+    if (category == "bound" && name == "displacement")  // before RISpec 3.1
         state.displacement_bound = {std::abs(number), "object"};
-    if (category == "displacementbound" && value.name == "coordinatesystem")
+    if (category == "displacementbound" && name == "coordinatesystem")
         state.displacement_bound.coordinate_system = text;
-    if (category == "visibility" && value.name == "camera")
+    if (category == "visibility" && name == "camera")
         a.visible_to_camera = value.is_string() ? is_on(text) : number != 0;
     // BMRT's: a bit for the camera, one for reflections, one for shadows.
-    if (category == "render" && value.name == "visibility" && !value.floats.empty())
+    if (category == "render" && name == "visibility" && !value.floats.empty())
         a.visible_to_camera = (static_cast<int>(std::clamp(number, 0.0f, 7.0f)) & 1) != 0;
     set_ray_attribute(category, value, a.rays);
-    if (category == "cull" && value.name == "hidden") a.cull_hidden = number != 0;
-    if (category == "dice") set_dice(a.dice, value.name, number);
+    if (category == "cull" && name == "hidden") a.cull_hidden = number != 0;
+    if (category == "dice") set_dice(a.dice, name, number);
     if (const std::optional<float> rate = shading_rate_of(category, value)) a.shading_rate = *rate;
 }
 
-std::optional<float> shading_rate_of(const std::string& category, const Parameter& value) {
-    if (category != "dice" || value.name != "micropolygonlength") return {};
+std::optional<float> shading_rate_of(std::string_view category, const Parameter& value) {
+    if (category != "dice" || std::string_view(value.name) != "micropolygonlength") return {};
     if (value.floats.empty() || !(value.floats[0] > 0)) return {};
     return value.floats[0] * value.floats[0];
 }

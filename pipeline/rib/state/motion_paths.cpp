@@ -144,14 +144,14 @@ std::vector<std::optional<V3f>> points_of(const Shape& shape) {
 
 /// The box stands for all points: a rotation bends the paths of those farthest from its centre most, and no
 /// point of the box is farther from any centre than one of its corners.
-std::vector<V3f> corners_of(const std::vector<std::shared_ptr<const Shape>>& shape_keys) {
+std::vector<V3f> corners_of(std::span<const std::shared_ptr<const Shape>> shape_keys) {
     Box3f box;
     for (const auto& key : shape_keys) box.extendBy(box_of(*key));
     return corners_of_box(box);
 }
 
 /// Of all points "P" and "Pw"; quadrics and blobbies by their boxes.
-std::vector<V3f> ways_of(const std::vector<std::shared_ptr<const Shape>>& shape_keys) {
+std::vector<V3f> ways_of(std::span<const std::shared_ptr<const Shape>> shape_keys) {
     Box3f ways;
     for (size_t key = 0; key + 1 < shape_keys.size(); ++key) {
         const auto from = points_of(*shape_keys[key]), to = points_of(*shape_keys[key + 1]);
@@ -205,7 +205,7 @@ using PosePoints = std::vector<std::vector<std::optional<V3f>>>;
 
 constexpr size_t kMostPosePoints = 4096;
 
-PosePoints points_of_poses(const std::vector<std::shared_ptr<const Shape>>& shapes) {
+PosePoints points_of_poses(std::span<const std::shared_ptr<const Shape>> shapes) {
     PosePoints poses;
     for (const auto& shape : shapes) {
         const std::vector<std::optional<V3f>> all = points_of(*shape);
@@ -252,7 +252,7 @@ float pose_error(const PosePoints& poses, const std::vector<float>& times, const
 
 }  // namespace
 
-int keys_for_poses(const std::vector<std::shared_ptr<const Shape>>& shapes, const std::vector<float>& times,
+int keys_for_poses(std::span<const std::shared_ptr<const Shape>> shapes, const std::vector<float>& times,
                    const MovingTransform& transform, float open, float close, const Camera& camera) {
     if (shapes.size() < 2 || !(close > open) || !(close > times.front()) || !(open < times.back())) return 1;
     int keys = keys_meeting(times, open, close);
@@ -269,7 +269,7 @@ int keys_for_poses(const std::vector<std::shared_ptr<const Shape>>& shapes, cons
 
 /// Doubles the segments: keys that were met stay met.
 int keys_for_paths(const MovingTransform& transform, float open, float close,
-                   const std::vector<std::shared_ptr<const Shape>>& shape_keys, const Camera& camera) {
+                   std::span<const std::shared_ptr<const Shape>> shape_keys, const Camera& camera) {
     int keys = transform.wanted_keys(open, close);
     if (keys == 1) return keys;
     const bool bends = transform.may_bend(open, close, shape_keys.size() > 1);

@@ -43,6 +43,8 @@ class MovingTransform {
     void concat(const M44d& matrix);
     void concat(MovingFactor factor);
     void concat(const MovingTransform& newer);
+    /// Whether they are one chain, and not just equal.
+    bool is_same_chain(const MovingTransform& other) const { return newest_ == other.newest_; }
     /// The whole product at a time of the scene, in seconds. Multiplied anew at each call.
     M44d at(float time) const;
     /// Whether any factor changes within the shutter. The product may stand still all the same, where two

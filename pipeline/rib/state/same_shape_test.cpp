@@ -6,7 +6,7 @@ namespace trapeze::testing {
 namespace {
 
 std::shared_ptr<const Shape> shape_of(const std::string& text) {
-    return read_world(text).primitive().shape_keys.at(0);
+    return read_world(text).primitive().shape_keys.front();
 }
 
 /// Each is another shape than all others.

@@ -68,7 +68,7 @@ size_t bytes_of(const Attributes& attributes) {
 }
 
 size_t bytes_of(const Primitive& primitive) {
-    return sizeof primitive + bytes_of(primitive.shape_keys) + bytes_of(primitive.camera_from_object);
+    return sizeof primitive + primitive.shape_keys.allocated_bytes();
 }
 
 }  // namespace trapeze::rib

@@ -10,7 +10,7 @@ namespace trapeze::rib {
 size_t bytes_of(const Shape& shape);
 /// Bytes of attributes without what many share: shaders and lights.
 size_t bytes_of(const Attributes& attributes);
-/// Bytes of a primitive without its shapes and attributes.
+/// Bytes of a primitive without its shapes, poses and attributes.
 size_t bytes_of(const Primitive& primitive);
 
 }  // namespace trapeze::rib

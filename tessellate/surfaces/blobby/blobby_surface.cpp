@@ -254,17 +254,18 @@ std::unique_ptr<Surface> make_blobby_surface(const Primitive& primitive, const S
     if (mesh.coarser > 2)
         diagnostics.warning(primitive.location, "Blobby: too large for its size on the screen; made coarsely",
                             "blobby-coarse");
-    Primitive polygons = primitive;
-    polygons.shape_keys.clear();
+    std::vector<std::shared_ptr<const Shape>> keys;
     const PolygonMesh topology = polygons_of(mesh);
-    polygons.shape_keys.push_back(std::make_shared<const Shape>(
+    keys.push_back(std::make_shared<const Shape>(
         Shape{topology, mesh_variables(field, mesh, primitive.shape().variables)}));
     for (size_t key = 1; key < primitive.shape_keys.size(); ++key) {
         const BlobbyField later = field_at(primitive, key, view.depth_heights);
         ParameterList list;
         list.set(triples("P", ValueType::Point, moved_points(field, mesh, later)));
-        polygons.shape_keys.push_back(std::make_shared<const Shape>(Shape{topology, std::move(list)}));
+        keys.push_back(std::make_shared<const Shape>(Shape{topology, std::move(list)}));
     }
+    Primitive polygons = primitive;
+    polygons.shape_keys = std::move(keys);
     auto surface = std::make_unique<BlobbySurface>(std::move(polygons), diagnostics);
     return surface->is_valid() ? std::move(surface) : nullptr;
 }

@@ -39,9 +39,11 @@ struct MadeLimit {
               Scheme scheme = Scheme::CatmullClark) {
         primitive =
             testing::primitive_of(testing::subdivision_of(cage, tags, scheme), {{testing::points(keys[0])}});
+        std::vector<std::shared_ptr<const Shape>> shapes{primitive.shape_keys.front()};
         for (size_t k = 1; k < keys.size(); ++k)
-            primitive.shape_keys.push_back(std::make_shared<const Shape>(
+            shapes.push_back(std::make_shared<const Shape>(
                 Shape{testing::subdivision_of(cage, tags, scheme), {{testing::points(keys[k])}}}));
+        primitive.shape_keys = std::move(shapes);
         surface = make_subdivision_surface(primitive, diagnostics);
     }
     const Surface& operator*() const { return *surface; }
