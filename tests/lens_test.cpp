@@ -110,6 +110,19 @@ TEST(LensBlades, DensityMovesLightToTheRimOrTheMiddle) {
     EXPECT_NEAR(spread("-1") / even, 2. / 3, .02);
 }
 
+/// A lens without blades has a density, too: the mean of r^2 is 1/2, 2/3 and 1/3.
+TEST(LensBlades, DensityIsThatOfADiskAlso) {
+    const auto spread = [](const std::string& aperture) {
+        const Blur blur = render_blur(aperture, 9);
+        return blur.squares / blur.light - kHalf * kHalf * 2 / 3;
+    };
+    const double even = spread("0 0 0 0");
+    for (const char* const round : {"0 0 0", "2 30 -1", "5 0 1", "129 0 0"}) {
+        EXPECT_NEAR(spread(std::string(round) + " 1") / even, 4. / 3, .02) << round;
+        EXPECT_NEAR(spread(std::string(round) + " -1") / even, 2. / 3, .02) << round;
+    }
+}
+
 /// Each form of every method with its own pattern, and each method with all patterns that it honours: as
 /// brute force with that pattern.
 TEST(LensBlades, AreTheSameForEveryMethodAndAnyThreads) {

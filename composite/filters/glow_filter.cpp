@@ -34,6 +34,12 @@ std::vector<float> weights(float pixels, double sum) {
     return result;
 }
 
+/// The pixel of 0 to `size` that one beyond the picture's edges mirrors.
+int mirrored(int at, int size) {
+    const int period = 2 * size, place = ((at % period) + period) % period;
+    return place < size ? place : period - 1 - place;
+}
+
 /// sum += weight * values, `count` of them.
 void add_weighted(float weight, const float* values, size_t count, float* sum) {
     for (size_t i = 0; i < count; ++i) sum[i] += weight * values[i];
@@ -66,7 +72,7 @@ PixelRect glow_window(const Glow& glow, const Camera& camera, const PixelRect& c
 }
 
 GlowFilter::GlowFilter(const Glow& glow, const Camera& camera, const PixelRect& kept, Image& image)
-    : glow_(glow), kept_(kept), image_(image) {
+    : glow_(glow), width_(camera.width), height_(camera.height), kept_(kept), image_(image) {
     for (const LobeShape& shape : kLobes) {
         Lobe lobe;
         lobe.along = weights(shape.size * glow.pixels_x(camera.width), 1);
@@ -90,13 +96,11 @@ void GlowFilter::spread_row(int y) {
     const size_t row = static_cast<size_t>(y - image_.window.y0) * width * 3;
     std::vector<float> light;
     for (Lobe& lobe : lobes_) {
-        // The lobe's reach to either side; black beyond the window, which ends where the picture does.
+        // The lobe's reach to either side: what mirrors do there, the window holds.
         const auto to = static_cast<int>(lobe.along.size() / 2);
         light.assign(3 * (width + lobe.along.size() - 1), 0);
-        const int first = std::max(kept_.x0 - to, image_.window.x0),
-                  last = std::min(kept_.x1 + to, image_.window.x1);
-        for (int x = first; x < last; ++x) {
-            const float* const rgba = &image_.rgba[4 * image_.index(x, y)];
+        for (int x = kept_.x0 - to; x < kept_.x1 + to; ++x) {
+            const float* const rgba = &image_.rgba[4 * image_.index(mirrored(x, width_), y)];
             const float part = share(rgba);
             float* const here = &light[3 * static_cast<size_t>(x - (kept_.x0 - to))];
             for (int c = 0; c < 3 && part != 0; ++c) here[c] = part * rgba[c];
@@ -111,9 +115,8 @@ void GlowFilter::add_to_row(int y) {
     std::vector<float> glow(3 * width);
     for (const Lobe& lobe : lobes_) {
         const auto to = static_cast<int>(lobe.down.size() / 2);
-        for (int from = std::max(y - to, image_.window.y0); from <= std::min(y + to, image_.window.y1 - 1);
-             ++from) {
-            const size_t row = static_cast<size_t>(from - image_.window.y0) * width * 3;
+        for (int from = y - to; from <= y + to; ++from) {
+            const size_t row = static_cast<size_t>(mirrored(from, height_) - image_.window.y0) * width * 3;
             add_weighted(lobe.down[static_cast<size_t>(from - y + to)], lobe.spread.data() + row, 3 * width,
                          glow.data());
         }

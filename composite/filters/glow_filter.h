@@ -1,6 +1,7 @@
 /// Glow over a finished picture: a part of the light of each pixel, or of what is above a threshold, is
-/// spread around it by three Gaussians, so that the sum of all pixels stays what it was, but for what leaves
-/// the picture. Nothing comes in from beyond the picture's edge.
+/// spread around it by three Gaussians, so that the sum of all pixels stays what it was. Beyond its edges the
+/// picture counts as mirrored: as much light comes in there as leaves it, and what is bright to the edge
+/// stays so.
 ///
 /// A pixel's new value depends on the pixels within reach alone, and its sums are of one order: a crop with a
 /// margin of that reach equals the same pixels of the whole picture, bit for bit.
@@ -37,6 +38,7 @@ class GlowFilter {
     float share(const float* rgba) const;
 
     Glow glow_;
+    int width_, height_;  ///< of the whole picture
     PixelRect kept_;
     Image& image_;
     std::vector<Lobe> lobes_;

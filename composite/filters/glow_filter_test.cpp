@@ -93,22 +93,26 @@ TEST(GlowFilter, APointIsSpreadByThreeGaussians) {
     }
 }
 
-/// Light that does not reach the edge stays in the picture, all of it.
-TEST(GlowFilter, KeepsTheLightOfTheInside) {
-    for (const float threshold : {0.0f, 2.0f}) {
+/// Light stays in the picture, all of it: also of pixels at its edges, and where these are nearer to each
+/// other than light reaches.
+TEST(GlowFilter, KeepsAllLight) {
+    for (const auto& [threshold, height] : {std::pair{0.0f, 90}, {2.0f, 90}, {0.0f, 5}}) {
         const Glow glow{1, .05f, threshold};
-        Image image = noisy(120, 90, 3);
-        for (int y = 0; y < 90; ++y)
-            for (int x = 0; x < 120; ++x)
-                if (x < 18 || x >= 102 || y < 18 || y >= 72)
-                    std::fill_n(&image.rgba[4 * image.index(x, y)], 3, 0.0f);
+        const Image image = noisy(120, height, 3);
         const Image result = glowing(glow, image, image.window);
         EXPECT_FALSE(result.rgba == image.rgba);
         for (size_t c = 0; c < 3; ++c) EXPECT_NEAR(sum_of(result, c) / sum_of(image, c), 1, 2e-6);
     }
 }
 
-/// At the edges light leaves, and none comes in: every pixel is the sum of all others' responses.
+TEST(GlowFilter, WhatIsBrightToTheEdgeStaysSo) {
+    Image image = black(60, 40);
+    std::ranges::fill(image.rgba, 1.0f);
+    const Image result = glowing({.4f, .1f, 0}, image, image.window);
+    for (const float value : result.rgba) ASSERT_NEAR(value, 1, 2e-6f);
+}
+
+/// Every pixel is the sum of all others' responses, and of those that are their mirrors beyond the edges.
 TEST(GlowFilter, IsTheSumOfWhatPixelsSpread) {
     const Glow glow{.6f, .1f, 0};
     const Image image = noisy(30, 20, 4), result = glowing(glow, image, image.window);
@@ -117,11 +121,13 @@ TEST(GlowFilter, IsTheSumOfWhatPixelsSpread) {
             double expected = 0;
             for (int from_y = 0; from_y < 20; ++from_y)
                 for (int from_x = 0; from_x < 30; ++from_x)
-                    expected += static_cast<double>(image.rgba[4 * image.index(from_x, from_y)]) *
-                                response(glow, 3, 3, x - from_x, y - from_y);
+                    for (const int place_y : {-1 - from_y, from_y, 39 - from_y})
+                        for (const int place_x : {-1 - from_x, from_x, 59 - from_x})
+                            expected += static_cast<double>(image.rgba[4 * image.index(from_x, from_y)]) *
+                                        response(glow, 3, 3, x - place_x, y - place_y);
             ASSERT_NEAR(result.rgba[4 * result.index(x, y)] / expected, 1, 1e-5);
         }
-    EXPECT_LT(sum_of(result, 0), sum_of(image, 0));
+    EXPECT_NEAR(sum_of(result, 0) / sum_of(image, 0), 1, 2e-6);
 }
 
 TEST(GlowFilter, ACropIsThePartOfTheWholePictureBitForBit) {

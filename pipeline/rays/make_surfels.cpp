@@ -91,6 +91,7 @@ void put(const RayDicer& dicer, const Grid& grid, size_t place_number, Surfels& 
             surfels.positions[at] = sums.area > 0 ? sums.place / sums.area : V3f(0);
             surfels.normals[at] = sums.vector_area.normalized() * (reversed ? -1.0f : 1.0f);
             surfels.areas[at] = sums.hiding_area;
+            surfels.opacities[at] = sums.area > 0 ? sums.hiding_area / sums.area : 1;
             surfels.ids[at] = surfel_id(grid.ordinal, u, v, place_number);
             const int u1 = std::min<int>(u + kSurfelSide, grid.shape.nu);
             const int v1 = std::min<int>(v + kSurfelSide, grid.shape.nv);
@@ -131,11 +132,12 @@ std::optional<Surfels> make_surfels(const RayDicer& dicer, const std::function<b
         if (wanted(subpatches[i].primitive)) first[i + 1] += (end - begin) * surfels_of(subpatches[i].shape);
     }
     Surfels surfels;
-    if (first.back() > most_bytes / (2 * sizeof(V3f) + sizeof(float) + sizeof(SurfelQuad) + sizeof(uint64_t)))
+    if (first.back() >
+        most_bytes / (2 * sizeof(V3f) + 2 * sizeof(float) + sizeof(SurfelQuad) + sizeof(uint64_t)))
         return {};
     surfels.positions.resize(first.back(), V3f(0)), surfels.normals.resize(first.back(), V3f(0));
     surfels.areas.resize(first.back(), 0), surfels.quads.resize(first.back());
-    surfels.ids.resize(first.back());
+    surfels.ids.resize(first.back()), surfels.opacities.resize(first.back(), 1);
     // Who waits for it may hold what other tasks of the frame want.
     tbb::this_task_arena::isolate([&] {
         tbb::parallel_for(
@@ -150,6 +152,8 @@ std::optional<Surfels> make_surfels(const RayDicer& dicer, const std::function<b
                 }
             });
     });
+    if (std::ranges::all_of(surfels.opacities, [](float opacity) { return opacity == 1; }))
+        surfels.opacities = {};
     return surfels;
 }
 

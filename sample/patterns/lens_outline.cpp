@@ -9,6 +9,7 @@ namespace trapeze {
 namespace {
 
 constexpr int kChords = 256;        ///< of the whole rim, at least, where it bows
+constexpr int kRoundBlades = 8;     ///< that a round opening is made of: arcs of its rim
 constexpr double kStraight = 1e-4;  ///< radians of bend below which a side is one chord
 
 struct Point {
@@ -82,12 +83,20 @@ class Blade {
     int chords_;
 };
 
+/// The same opening by blades.
+Aperture with_blades(const Aperture& aperture) {
+    Aperture made = aperture;
+    if (aperture.is_round()) made.blades = kRoundBlades, made.roundness = 1;
+    return made;
+}
+
 }  // namespace
 
 /// Chords are chosen by the area of their triangles and not by their length, for points are spread over
 /// triangles evenly.
-LensOutline::LensOutline(const Aperture& aperture) : density(aperture.density) {
-    if (aperture.is_disk()) return;
+LensOutline::LensOutline(const Aperture& given) : density(given.density) {
+    if (given.is_disk()) return;
+    const Aperture aperture = with_blades(given);
     const Blade blade(aperture);
     const std::vector<Point> corners = blade.corners();
     // From the corner nearest to -45 degrees, where the square's outline begins: cells of the square stay

@@ -23,7 +23,7 @@ using testing::TestFrame;
 const Aperture kShapes[] = {{3, 0, 0, 0},      {4, 45, 0, 0},   {5, 36, .5f, 0},  {5, 36, -.8f, .7f},
                             {6, 15, -1, -1},   {3, -77, -1, 1}, {4, 10, -1, 0},   {7, 123, 0, .4f},
                             {128, 5, 0, -.5f}, {8, 0, 1, 1},    {3, 20, 1, .01f}, {100, 350, -.3f, 0},
-                            {6, 0, 0, -1}};
+                            {6, 0, 0, -1},     {0, 0, 0, 1},    {2, 30, -1, -.6f}};
 
 /// Points of a net over the square, its borders, diagonals and middle included.
 std::vector<V2f> net(int side) {
@@ -37,7 +37,7 @@ std::vector<V2f> net(int side) {
 
 TEST(LensShape, FewerThanThreeBladesAndFullRoundnessAreTheDiskBitForBit) {
     for (const Aperture& aperture :
-         {Aperture{}, {1, 30, 0, 1}, {2, 0, -1, 0}, {6, 10, 1, 0}, {200, 0, 0, 0}}) {
+         {Aperture{}, {1, 30, 0, 0}, {2, 0, -1, 0}, {6, 10, 1, 0}, {200, 0, 0, 0}}) {
         const LensShape shape(aperture);
         EXPECT_EQ(shape.outline().size(), 0u);
         for (const V2f& p : net(100)) {
@@ -75,6 +75,7 @@ TEST(LensShape, APolygonsPointsLieInItAndFillIt) {
 
 /// Area of the opening: triangles from the middle to straight chords, and segments of circles on them.
 double area_of(const Aperture& a) {
+    if (a.is_round()) return M_PI;
     const double half = M_PI / a.blades, c = std::sin(half), h = std::cos(half);
     const double bend = a.roundness * (a.roundness >= 0 ? half : std::min(half, M_PI / 2 - half));
     if (bend == 0) return a.blades * h * c;

@@ -132,8 +132,8 @@ void PointBasedCall::look(size_t lane, const V3f& aside, PointBasedScratch& scra
     place.max_distance = arguments_.max_distance_at(lane) * scale_;
     place.bias = arguments_.bias.at(lane) * scale_;
     tree_->cut(place, scratch.pieces);
-    // What is hidden does not depend on the order where all counts alike.
-    if (step_.op == Op::IndirectDiffuse || arguments_.falloff.operand)
+    // What is hidden does not depend on the order where all counts alike and hides all behind it.
+    if (step_.op == Op::IndirectDiffuse || arguments_.falloff.operand || tree_->is_seen_through())
         std::ranges::sort(scratch.pieces, [](const SurfelPiece& a, const SurfelPiece& b) {
             if (a.distance != b.distance) return a.distance < b.distance;
             return a.is_cluster != b.is_cluster ? b.is_cluster : a.number < b.number;
@@ -150,11 +150,11 @@ void PointBasedCall::add(const SurfelPiece& piece, const SurfelPlace& place, siz
     if (sides != Sides::Back) seen.front = piece.front / distance2;
     if (sides != Sides::Front) seen.back = piece.back / distance2;
     if (!(seen.front > 0) && !(seen.back > 0)) return;
+    seen.opacity = piece.opacity;
     seen.counts = arguments_.falloff_at(piece.distance / scale_, lane);
     if (step_.op == Op::IndirectDiffuse) seen.color = tree_->radiosity(piece) * seen.counts;
     if (piece.is_large && !tree_->surfels().quads.empty())
-        raster.add_quad(tree_->quad_from(place.position, piece.number), tree_->surfels().areas[piece.number],
-                        seen);
+        raster.add_quad(tree_->quad_from(place.position, piece.number), tree_->disc_area(piece.number), seen);
     else if (piece.is_large)
         raster.add_disc(piece.way, tree_->surfels().normals[piece.number], tree_->disc_radius(piece.number),
                         seen);

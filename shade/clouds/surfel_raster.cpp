@@ -161,22 +161,80 @@ void SurfelRaster::start(const V3f& normal, const SkyPart& sky, bool clamp) {
     across_ = cone.across(), along_ = cone.along(), normal_ = normal;
     sky_ = &sky, clamp_ = clamp;
     front_.fill(0), back_.fill(0);
+    has_layers_ = false;
     hidden_ = 0, light_ = V3f(0);
 }
 
-/// Covers shares of some pixels in a row. A closed thing covers the same pixels by its fronts and its backs:
-/// what it hides is the larger of both.
-void SurfelRaster::cover(int first, const float* shares, float front, float back, Lanes& sums) {
+void SurfelRaster::Layers::start() {
+    covered.fill(0), begun.fill(0), hiding.fill(0);
+    reaches.fill(1);
+}
+
+void SurfelRaster::Layers::add(size_t pixel, float share, float opacity) {
+    const float all = smaller(1, share), now = smaller(all, 1 - begun[pixel]), later = all - now;
+    covered[pixel] = smaller(1, covered[pixel] + all);
+    begun[pixel] += now, hiding[pixel] += opacity * now;
+    if (begun[pixel] < 1) return;
+    reaches[pixel] *= larger(0, 1 - hiding[pixel]);
+    begun[pixel] = later, hiding[pixel] = opacity * later;
+}
+
+/// Where a closed thing's fronts and backs both are, light passes two layers.
+float SurfelRaster::hidden_by_layers(size_t pixel) const {
+    const float most = larger(front_layers_.covered[pixel], back_layers_.covered[pixel]);
+    const float front = front_layers_.hidden(pixel), back = back_layers_.hidden(pixel);
+    return most > 0 ? smaller(1, front + back - front * back / most) : 0;
+}
+
+/// A closed thing covers the same pixels by its fronts and its backs: of opaque ones that is what is hidden.
+/// Whatever lets light through is not beside them, but before or behind.
+float SurfelRaster::hidden_at(size_t pixel) const {
+    const float opaque = larger(front_[pixel], back_[pixel]);
+    return has_layers_ ? opaque + (1 - opaque) * hidden_by_layers(pixel) : opaque;
+}
+
+/// Covers shares of some pixels in a row.
+void SurfelRaster::cover(int first, const float* shares, float front, float back, const SeenSurface& thing,
+                         Lanes& sums) {
+    const float* const weights = sky_->weights() + first;
+    if (!clamp_) {
+        const float hides = (front + back) * thing.opacity;
+        for (size_t k = 0; k < kRasterLanes; ++k) sums[k] += hides * shares[k] * weights[k];
+    } else if (thing.opacity < 1) {
+        cover_in_layers(first, shares, front, back, thing.opacity, sums);
+    } else {
+        cover_opaque(first, shares, front, back, sums);
+    }
+}
+
+void SurfelRaster::cover_opaque(int first, const float* shares, float front, float back, Lanes& sums) {
     float* const fronts = &front_[static_cast<size_t>(first)];
     float* const backs = &back_[static_cast<size_t>(first)];
     const float* const weights = sky_->weights() + first;
-    for (size_t k = 0; k < kRasterLanes && clamp_; ++k) {
+    Lanes added;
+    for (size_t k = 0; k < kRasterLanes; ++k) {
         const float before = larger(fronts[k], backs[k]);
         fronts[k] = smaller(1, fronts[k] + front * shares[k]);
         backs[k] = smaller(1, backs[k] + back * shares[k]);
-        sums[k] += (larger(fronts[k], backs[k]) - before) * weights[k];
+        added[k] = (larger(fronts[k], backs[k]) - before) * weights[k];
     }
-    for (size_t k = 0; k < kRasterLanes && !clamp_; ++k) sums[k] += (front + back) * shares[k] * weights[k];
+    for (size_t k = 0; k < kRasterLanes && has_layers_; ++k)
+        added[k] *= 1 - hidden_by_layers(static_cast<size_t>(first) + k);
+    for (size_t k = 0; k < kRasterLanes; ++k) sums[k] += added[k];
+}
+
+void SurfelRaster::cover_in_layers(int first, const float* shares, float front, float back, float opacity,
+                                   Lanes& sums) {
+    if (!has_layers_) front_layers_.start(), back_layers_.start();
+    has_layers_ = true;
+    for (size_t k = 0; k < kRasterLanes; ++k) {
+        if (!(shares[k] > 0)) continue;
+        const size_t pixel = static_cast<size_t>(first) + k;
+        const float before = hidden_at(pixel);
+        if (front > 0) front_layers_.add(pixel, front * shares[k], opacity);
+        if (back > 0) back_layers_.add(pixel, back * shares[k], opacity);
+        sums[k] += (hidden_at(pixel) - before) * sky_->weight(static_cast<int>(pixel));
+    }
 }
 
 void SurfelRaster::take(float part, const SeenSurface& thing) {
@@ -188,7 +246,7 @@ void SurfelRaster::take(float part, const SeenSurface& thing) {
 void SurfelRaster::add_small(const V3f& way, const SeenSurface& thing) {
     const V3f at = to_raster(way);
     if (!(at.z > 0)) return;
-    const float solid_angle = std::max(thing.front, thing.back);
+    const float solid_angle = std::max(thing.front, thing.back) / thing.opacity;
     const float across = kSpread * std::sqrt(solid_angle / kHalfTurn) + kPixel;
     const float out = (across - kPixel) * at.z + kPixel;
     const float r = std::sqrt(at.x * at.x + at.y * at.y), ex = r > 0 ? at.x / r : 1,
@@ -214,11 +272,11 @@ void SurfelRaster::add_small(const V3f& way, const SeenSurface& thing) {
     });
     const float sum = added(sums);
     if (!(sum > 0)) return;
-    const float scale = at.z / (all.area * sum);
+    const float scale = at.z / (all.area * sum * thing.opacity);
     const float* from = shares.data();
     Lanes parts{};
     for_each_row(columns, rows, [&](int j, int first) {
-        cover(j * kSide + first, from, thing.front * scale, thing.back * scale, parts);
+        cover(j * kSide + first, from, thing.front * scale, thing.back * scale, thing, parts);
         from += kRasterLanes;
     });
     take(added(parts), thing);
@@ -260,7 +318,7 @@ void SurfelRaster::add_disc(const V3f& way, const V3f& normal, float radius, con
             const float other = mirrored > 0 ? mirrored * mirrored * mirrored : 0;
             shares[k] = t > 0 ? own + other : 0;
         }
-        cover(j * kSide + first, shares.data(), front, back, parts);
+        cover(j * kSide + first, shares.data(), front, back, thing, parts);
     });
     take(added(parts), thing);
 }
@@ -300,7 +358,7 @@ void SurfelRaster::add_quad(const SurfelQuad& ways, float area, const SeenSurfac
             }
             shares[k] = share;
         }
-        cover(j * kSide + first, shares.data(), front, back, parts);
+        cover(j * kSide + first, shares.data(), front, back, thing, parts);
     });
     take(added(parts), thing);
 }
@@ -310,7 +368,7 @@ void SurfelRaster::open_parts(std::vector<V3f>& ways, std::vector<float>& parts)
     ways.clear(), parts.clear();
     for (int p = 0; p < SkyPart::kPixels; ++p) {
         const auto i = static_cast<size_t>(p);
-        const float open = (1 - std::max(front_[i], back_[i])) * sky_->weight(p);
+        const float open = (1 - hidden_at(i)) * sky_->weight(p);
         if (!(open > 0)) continue;
         ways.push_back(across_ * all.x[i] + along_ * all.y[i] + normal_ * all.z[i]);
         parts.push_back(open);
@@ -322,7 +380,7 @@ V3f SurfelRaster::open_way() const {
     V3f sum(0);
     for (int p = 0; p < SkyPart::kPixels; ++p) {
         const auto i = static_cast<size_t>(p);
-        const float open = (1 - std::max(front_[i], back_[i])) * sky_->weight(p);
+        const float open = (1 - hidden_at(i)) * sky_->weight(p);
         sum += V3f(all.x[i], all.y[i], all.z[i]) * open;
     }
     return across_ * sum.x + along_ * sum.y + normal_ * sum.z;

@@ -92,10 +92,12 @@ SurfelTree::SurfelTree(const Surfels& surfels) {
     surfels_.positions.reserve(order.size()), surfels_.normals.reserve(order.size());
     surfels_.areas.reserve(order.size()), surfels_.quads.reserve(surfels.quads.empty() ? 0 : order.size());
     surfels_.ids.reserve(surfels.ids.empty() ? 0 : order.size());
+    surfels_.opacities.reserve(surfels.opacities.empty() ? 0 : order.size());
     for (const uint32_t i : order) {
         surfels_.positions.push_back(surfels.positions[i]);
         surfels_.normals.push_back(surfels.normals[i]);
         surfels_.areas.push_back(surfels.areas[i]);
+        if (!surfels.opacities.empty()) surfels_.opacities.push_back(surfels.opacities[i]);
         if (!surfels.ids.empty()) surfels_.ids.push_back(surfels.ids[i]);
         if (!surfels.quads.empty()) surfels_.quads.push_back(surfels.quads[i]);
     }
@@ -112,7 +114,7 @@ size_t SurfelTree::bytes() const {
 }
 
 float SurfelTree::disc_radius(uint32_t surfel) const {
-    return std::sqrt(surfels_.areas[surfel] / kUnitDisc);
+    return std::sqrt(disc_area(surfel) / kUnitDisc);
 }
 
 SurfelQuad SurfelTree::quad_from(const V3f& place, uint32_t surfel) const {
@@ -181,13 +183,14 @@ size_t SurfelTree::bytes_of_radiosities() const {
 
 void SurfelTree::sum_node(Node& node) {
     V3d sum(0);
-    double area = 0;
+    double area = 0, whole = 0;
     for (uint32_t i = node.first; i < node.end; ++i) {
         const auto own = static_cast<double>(surfels_.areas[i]);
         sum += V3d(surfels_.positions[i]) * own;
-        area += own;
+        area += own, whole += static_cast<double>(disc_area(i));
     }
     node.middle = V3f(sum / area);
+    if (is_seen_through()) node.opacity = static_cast<float>(area / whole);
     for (uint32_t i = node.first; i < node.end; ++i)
         node.radius = std::max(node.radius, (surfels_.positions[i] - node.middle).length() + disc_radius(i));
     for (uint32_t c = node.child; c < node.child + node.children; ++c) add(node.area, nodes_[c].area);
@@ -238,7 +241,7 @@ void SurfelTree::add_node(const Node& node, uint32_t number, const SurfelPlace& 
     const V3f from = piece.way / -piece.distance;
     const BothWays seen = areas_seen(node.area, node.lacking, node.of_vector, harmonics_at(from));
     piece.front = seen.there, piece.back = seen.back;
-    piece.number = number, piece.is_cluster = true;
+    piece.number = number, piece.is_cluster = true, piece.opacity = node.opacity;
     pieces.push_back(piece);
 }
 
@@ -260,7 +263,7 @@ void SurfelTree::add_disc(uint32_t surfel, const SurfelPlace& place, std::vector
     const float most = usable(place.max_solid_angle);
     piece.distance = std::sqrt(distance2);
     if (!(distance2 > 0) || !std::isfinite(distance2) || piece.distance > place.max_distance) return;
-    piece.is_large = area > most * distance2;
+    piece.is_large = disc_area(surfel) > most * distance2;
     const float toward = -piece.way.dot(normal);  // the distance between the place and the disc's plane
     const float seen = normal == V3f(0) ? area : area * std::abs(toward) / piece.distance;
     if (normal == V3f(0))
@@ -269,7 +272,7 @@ void SurfelTree::add_disc(uint32_t surfel, const SurfelPlace& place, std::vector
         (toward > 0 ? piece.front : piece.back) = seen;
     if (piece.is_large && is_own_surface(piece, surfel, place)) return;
     if (!piece.is_large && piece.way.dot(place.normal) <= 0) return;
-    piece.number = surfel;
+    piece.number = surfel, piece.opacity = opacity(surfel);
     pieces.push_back(piece);
 }
 

@@ -25,7 +25,8 @@ struct SurfelPlace {
 struct SurfelPiece {
     V3f way;                    ///< from the place to the middle
     float distance = 0;         ///< the way's length
-    float front = 0, back = 0;  ///< areas of either side, projected along the way
+    float front = 0, back = 0;  ///< areas of either side, projected along the way, as they hide
+    float opacity = 1;          ///< what they hide of what is behind them
     uint32_t number = 0;        ///< of a surfel of the tree, or of a node
     bool is_cluster = false;
     bool is_large = false;  ///< a disc that takes more than the solid angle: its outline matters
@@ -42,6 +43,8 @@ class SurfelTree {
     void cut(const SurfelPlace& place, std::vector<SurfelPiece>& pieces) const;
 
     bool empty() const { return surfels_.size() == 0; }
+    /// Whether light shines through some of the discs.
+    bool is_seen_through() const { return !surfels_.opacities.empty(); }
     bool has_radiosities() const { return !surfels_.radiosities.empty(); }
     /// What the sides of the discs send, in the tree's order. Others may call cut() meanwhile.
     void set_radiosities(std::vector<V3f> fronts, std::vector<V3f> backs);
@@ -49,6 +52,9 @@ class SurfelTree {
     size_t bytes_of_radiosities() const;
     /// The discs, in the tree's order.
     const Surfels& surfels() const { return surfels_; }
+    float opacity(uint32_t surfel) const { return is_seen_through() ? surfels_.opacities[surfel] : 1; }
+    /// What it has, and not what it hides.
+    float disc_area(uint32_t surfel) const { return surfels_.areas[surfel] / opacity(surfel); }
     float disc_radius(uint32_t surfel) const;
     /// The ways from a place to the corners of what a disc stands for.
     SurfelQuad quad_from(const V3f& place, uint32_t surfel) const;
@@ -64,6 +70,7 @@ class SurfelTree {
         V3f middle{0, 0, 0};  ///< the discs' mean place, weighted by their areas
         float radius = 0;     ///< of a ball around it that holds the discs
         float lacking = 0;    ///< how much of what harmonics lack is to be added (areas_seen())
+        float opacity = 1;    ///< the discs' mean one
         float of_vector = 0;  ///< one over the length of the discs' vector area
         Harmonics area{};     ///< of the fronts, as seen from a direction
         uint32_t first = 0;   ///< of its surfels

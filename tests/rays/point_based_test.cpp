@@ -216,8 +216,7 @@ TEST(PointBased, ScenesAreMadeDiscsOf) {
         "float expected = .25 * 2 / (d * d * d);";
     for (const Pixel& pixel : scene.asks(both, kBall, expects))
         EXPECT_NEAR(pixel.red, pixel.green, .06f * pixel.green);
-    // A disc that half covers its place and one behind it: what both hide adds up, as that of unrelated
-    // discs.
+    // A disc of half of the sky's opacity.
     const Pixel half =
         scene.asks("color(" + kOfScene + "), 0, 0)",
                    "Opacity .5 .5 .5 " + kHidden + kSeen + "Translate 0 0 4 Disk 0 2 360")[32 * 64 + 32];
@@ -227,6 +226,39 @@ TEST(PointBased, ScenesAreMadeDiscsOf) {
                                         "Attribute \"visibility\" \"int specular\" 1 "
                                         "Translate 0 0 3 Sphere .5 -.5 .5 360")[32 * 64 + 32];
     EXPECT_EQ(unseen.red, 0);
+    scene.expect_nothing_said();
+}
+
+/// Layers let through what the product of their transparencies is, be they sheets or both sides of a ball.
+TEST(PointBased, LightPassesLayers) {
+    PointBased scene(ball());
+    const auto sheets = [](int count, float opacity) {
+        const std::string o = std::to_string(opacity) + " ";
+        std::string text = kHidden + kSeen + "Opacity " + o + o + o;
+        for (int i = 0; i < count; ++i) text += "Disk " + std::to_string(4 - .2 * i) + " 20 360 ";
+        return text;
+    };
+    for (const auto& [count, opacity] : {std::pair{1, .5f}, {2, .5f}, {8, .2f}, {3, .9f}, {2, 1.0f}}) {
+        const Pixel middle =
+            scene.asks("color(" + kOfScene + "), 0, 0)", sheets(count, opacity))[32 * 64 + 32];
+        EXPECT_NEAR(middle.red, 1 - std::pow(1 - opacity, count), .015f) << count << " of " << opacity;
+    }
+    // What is opaque hides all, behind others and before them.
+    for (const char* const depth : {"3.5", "4.3"}) {
+        const auto hidden_with = [&](const std::string& things) {
+            const std::string disk = things + "Opacity 1 1 1 Disk " + depth + " 20 360";
+            return scene.asks("color(" + kOfScene + "), 0, 0)", disk)[32 * 64 + 32].red;
+        };
+        const float alone = hidden_with(kHidden + kSeen);
+        EXPECT_GT(alone, .95f) << depth;
+        EXPECT_GT(hidden_with(sheets(2, .5f)), alone) << depth;
+    }
+    const std::string expects =
+        "vector way = P - point(0, 0, 3); float d = length(way);"
+        "float expected = .75 * .25 * 2 / (d * d * d);";
+    for (const Pixel& pixel : scene.asks("color(" + kOfScene + ", \"maxsolidangle\", .03), expected, 1)",
+                                         "Opacity .5 .5 .5 " + kBall, expects))
+        EXPECT_NEAR(pixel.red, pixel.green, .06f * pixel.green);
     scene.expect_nothing_said();
 }
 

@@ -26,7 +26,10 @@ void print_world(int number, const Scene& scene) {
         fmt::print(", f/{} lens of {} focused at {}", o.f_stop, o.focal_length, o.focal_distance);
     const Aperture aperture = aperture_of(o);
     if (o.f_stop < kInfinity && !aperture.is_disk())
-        fmt::print(", {} blades, roundness {}, density {}", aperture.blades, aperture.roundness,
+        fmt::print(", {}, density {}",
+                   aperture.is_round()
+                       ? "round"
+                       : fmt::format("{} blades, roundness {}", aperture.blades, aperture.roundness),
                    aperture.density);
     if (o.shutter_close > o.shutter_open) fmt::print(", shutter {} to {}", o.shutter_open, o.shutter_close);
     fmt::print("\n");
