@@ -13,7 +13,7 @@ namespace {
 
 /// A primitive's matrix at a key of the grid, which may have more keys than the primitive. Matrices are mixed
 /// linearly between their keys, as points move between them.
-M44d pose_at_key(const std::vector<M44f>& poses, int key, int key_count) {
+M44d pose_at_key(std::span<const M44f> poses, int key, int key_count) {
     const int count = static_cast<int>(poses.size());
     if (count <= 1) return count ? M44d(poses.front()) : M44d();
     const float time01 = key_count > 1 ? static_cast<float>(key) / static_cast<float>(key_count - 1) : 0.0f;
@@ -65,7 +65,7 @@ Displaced displaced_by(const vm::Registers& registers, size_t first, size_t coun
 }
 
 M44d key_from_first(const Primitive& primitive, int key, int key_count) {
-    const std::vector<M44f>& poses = primitive.camera_from_object;
+    const std::span<const M44f> poses = primitive.camera_from_object;
     if (poses.size() <= 1 || key == 0) return M44d();
     return pose_at_key(poses, 0, key_count).inverse() * pose_at_key(poses, key, key_count);
 }

@@ -15,8 +15,8 @@ set(TRAPEZE_PLUGIN_HEADERS
     core/scene/layer_limit.h
     core/scene/light_shape.h
     core/scene/parameters.h
-    core/scene/render_context.h
     core/scene/poses.h
+    core/scene/render_context.h
     core/scene/scene.h
     core/scene/shapes.h
     core/scene/user_values.h

@@ -35,26 +35,28 @@ Matrix pose_at(std::span<const Matrix> keys, float time01) {
 class SharedPoses {
   public:
     SharedPoses() = default;
-    SharedPoses(std::vector<M44f> keys) : keys_(std::make_shared<const std::vector<M44f>>(std::move(keys))) {}
-    SharedPoses(std::initializer_list<M44f> keys) : SharedPoses(std::vector<M44f>(keys)) {}
-
-    operator const std::vector<M44f>&() const { return keys(); }
-    const std::vector<M44f>& keys() const {
-        static const std::vector<M44f> none;
-        return keys_ ? *keys_ : none;
+    explicit SharedPoses(const M44f& only) : size_(1), keys_(std::make_shared<M44f[]>(1, only)) {}
+    SharedPoses(std::span<const M44f> keys) : size_(keys.size()) {
+        const auto made = std::make_shared<M44f[]>(keys.size());
+        std::ranges::copy(keys, made.get());
+        keys_ = made;
     }
-    size_t size() const { return keys().size(); }
-    bool empty() const { return size() == 0; }
-    const M44f& front() const { return keys().front(); }
-    const M44f& back() const { return keys().back(); }
-    const M44f& operator[](size_t key) const { return keys()[key]; }
-    const M44f* data() const { return keys().data(); }
+    SharedPoses(const std::vector<M44f>& keys) : SharedPoses(std::span(keys)) {}
+    SharedPoses(std::initializer_list<M44f> keys) : SharedPoses(std::span(keys.begin(), keys.size())) {}
+
+    size_t size() const { return size_; }
+    bool empty() const { return size_ == 0; }
+    const M44f* data() const { return keys_.get(); }
     const M44f* begin() const { return data(); }
-    const M44f* end() const { return data() + size(); }
-    bool operator==(const SharedPoses& other) const { return keys() == other.keys(); }
+    const M44f* end() const { return data() + size_; }
+    const M44f& front() const { return keys_[0]; }
+    const M44f& back() const { return (*this)[size_ - 1]; }
+    const M44f& operator[](size_t key) const { return data()[key]; }
+    bool operator==(const SharedPoses& other) const { return std::ranges::equal(*this, other); }
 
   private:
-    std::shared_ptr<const std::vector<M44f>> keys_;
+    size_t size_ = 0;
+    std::shared_ptr<const M44f[]> keys_;
 };
 
 /// Scene::held_from_camera at one of `keys` keys; at shutter open it is exactly the identity.
@@ -78,7 +80,7 @@ inline bool is_same_pose(const M44f& a, const M44f& b) {
 
 /// Poses (camera_from_..., one or more keys) as a camera that stays where it is at shutter open has them;
 /// one, where nothing moves then.
-inline std::vector<M44f> held_poses(const std::vector<M44f>& poses, std::span<const M44f> held) {
+inline std::vector<M44f> held_poses(std::span<const M44f> poses, std::span<const M44f> held) {
     const int keys = poses.size() > 1 ? static_cast<int>(poses.size()) : held.empty() ? 1 : kHeldKeys;
     std::vector<M44f> all;
     for (int key = 0; key < keys; ++key) {

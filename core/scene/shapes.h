@@ -151,11 +151,11 @@ class ShapeKeys {
 
     ShapeKeys() = default;
     ShapeKeys(Pointer only) : one_(std::move(only)) {}
-    ShapeKeys(std::vector<Pointer> keys) {
+    ShapeKeys(const std::vector<Pointer>& keys) {
         if (keys.size() == 1)
-            one_ = std::move(keys.front());
+            one_ = keys.front();
         else
-            several_ = std::move(keys);
+            several_ = keys;
     }
     ShapeKeys(std::initializer_list<Pointer> keys) : ShapeKeys(std::vector<Pointer>(keys)) {}
 

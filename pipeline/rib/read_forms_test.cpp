@@ -168,7 +168,7 @@ TEST(ReadForms, MotionsThatMultiplyGetKeysWhereTheyBend) {
     const ReadOutcome outcome = read_text(
         "Shutter 0 1 WorldBegin MotionBegin [0 1] Scale 1 1 1 Scale 4 4 4 MotionEnd\n"
         "MotionBegin [0 1] Translate 0 0 0 Translate 6 0 0 MotionEnd Sphere 1 -1 1 360 WorldEnd\n");
-    const std::vector<M44f>& keys = outcome.primitive().camera_from_object;
+    const SharedPoses& keys = outcome.primitive().camera_from_object;
     ASSERT_TRUE(is_key_count(static_cast<int>(keys.size())));
     ASSERT_GT(keys.size(), 2u);
     for (size_t k = 0; k + 1 < keys.size(); ++k) {

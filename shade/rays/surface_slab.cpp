@@ -40,7 +40,7 @@ constexpr float kInwards = 16, kMostInwards = 1.0f / 4;
 float rounding_at(const ShadingGrid& grid, size_t vertex) {
     float reach =
         grid.P.front().at(vertex).length() + grid.dPdu.at(vertex).length() + grid.dPdv.at(vertex).length();
-    const std::vector<M44f>& poses = grid.primitive->camera_from_object;
+    const std::span<const M44f> poses = grid.primitive->camera_from_object;
     if (!poses.empty())
         reach += 2 * V3f(poses.front()[3][0], poses.front()[3][1], poses.front()[3][2]).length();
     return kRoundings * kRounding * reach;

@@ -18,7 +18,7 @@ M44f lerp(const M44f& a, const M44f& b, float t) {
 
 /// Whether any pose differs; a primitive may have several that are equal, bit for bit.
 bool really_moves(const Primitive& primitive) {
-    const std::vector<M44f>& m = primitive.camera_from_object;
+    const std::span<const M44f> m = primitive.camera_from_object;
     return primitive.shape_keys.size() > 1 ||
            std::any_of(m.begin(), m.end(), [&](const M44f& other) { return other != m.front(); });
 }
@@ -37,7 +37,7 @@ Box3f transformed(const M44f& m, const Box3f& box) {
 
 /// Vertices move linearly between the transform's keys: so do the matrix' elements.
 std::vector<M44f> matrices_at_keys(const Primitive& primitive, int keys) {
-    const std::vector<M44f>& given = primitive.camera_from_object;
+    const std::span<const M44f> given = primitive.camera_from_object;
     const int segments = static_cast<int>(given.size()) - 1;
     std::vector<M44f> matrices(keys, given.front());
     if (segments == 0 || keys == 1) return matrices;

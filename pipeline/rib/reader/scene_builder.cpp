@@ -139,7 +139,7 @@ void SceneBuilder::deliver_world() {
 
 /// The bound in camera space: its own length, times the most that its space stretches any length at any key.
 float SceneBuilder::displacement_length(const GraphicsState& state,
-                                        const std::vector<M44f>& camera_from_object) {
+                                        std::span<const M44f> camera_from_object) {
     const DisplacementBound& bound = state.attributes->displacement_bound;
     if (bound.sphere == 0 || bound.coordinate_system == "camera") return bound.sphere;
     float stretch = 0;
@@ -161,8 +161,9 @@ float SceneBuilder::displacement_length(const GraphicsState& state,
 /// Attributes as the scene has them; primitives in a row mostly share one set, which is made once.
 /// `mirrored`: the determinant of their space is negative. A mirrored space, orientation "inside" and
 /// ReverseOrientation turn normals over once each, so that two of them cancel.
-std::shared_ptr<const Attributes> SceneBuilder::resolved_attributes(
-    const GraphicsState& in, const std::vector<M44f>& camera_from_object, bool mirrored) {
+std::shared_ptr<const Attributes> SceneBuilder::resolved_attributes(const GraphicsState& in,
+                                                                    std::span<const M44f> camera_from_object,
+                                                                    bool mirrored) {
     const std::shared_ptr<const AttributeState>& state = in.attributes;
     const bool inside = state->orientation == Orientation::Inside;
     const bool reverse = (mirrored != inside) != state->orientation_reversed;
@@ -197,6 +198,7 @@ bool SceneBuilder::has_room(uint64_t bytes) {
     return false;
 }
 
+/// At the keys that the motion in the shutter wants; found once for primitives that follow each other.
 SceneBuilder::Place SceneBuilder::place_of(const MovingTransform& transform, const ShapeKeys& shape_keys) {
     const float open = state_.options().shutter_open, close = state_.options().shutter_close;
     if (last_place_.transform && last_place_.transform->is_same_chain(transform) &&
@@ -204,14 +206,19 @@ SceneBuilder::Place SceneBuilder::place_of(const MovingTransform& transform, con
         return last_place_.place;
     const int keys =
         close > open ? keys_for_paths(transform, open, close, shape_keys, make_camera(state_.options())) : 1;
-    std::vector<M44f> poses;
-    poses.reserve(static_cast<size_t>(keys));
-    for (int k = 0; k < keys; ++k) poses.push_back(M44f(transform.at(key_time(open, close, k, keys))));
-    unfold_first(poses);
     Place place;
-    if (std::ranges::all_of(poses, is_finite)) place.determinant = M44d(poses.front()).determinant();
-    place.poses = std::move(poses);
-    if (!transform.moves_between(open, close)) last_place_ = {transform, open, close, place};
+    if (keys == 1) {
+        const M44f pose(transform.at(open));
+        if (is_finite(pose)) place.determinant = M44d(pose).determinant();
+        place.poses = SharedPoses(pose);
+        last_place_ = {transform, open, close, place};
+    } else {
+        std::vector<M44f> poses;
+        for (int k = 0; k < keys; ++k) poses.push_back(M44f(transform.at(key_time(open, close, k, keys))));
+        unfold_first(poses);
+        if (std::ranges::all_of(poses, is_finite)) place.determinant = M44d(poses.front()).determinant();
+        place.poses = poses;
+    }
     return place;
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -110,9 +111,9 @@ class SceneBuilder {
     void emit(const std::string& request, ShapeKeys shape_keys, const GraphicsState& state, SourceLocation at,
               int solid);
     std::shared_ptr<const Attributes> resolved_attributes(const GraphicsState& state,
-                                                          const std::vector<M44f>& camera_from_object,
+                                                          std::span<const M44f> camera_from_object,
                                                           bool mirrored);
-    float displacement_length(const GraphicsState& state, const std::vector<M44f>& camera_from_object);
+    float displacement_length(const GraphicsState& state, std::span<const M44f> camera_from_object);
 
     using SpacesPointer = std::shared_ptr<const NamedSpaces>;
     SpacesPointer placed_spaces(const RetainedObject& object, const SpacesPointer& of_primitive) const;

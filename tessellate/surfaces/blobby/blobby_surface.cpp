@@ -99,7 +99,7 @@ class ScreenCells {
     }
 
     const Camera& camera_;
-    std::vector<M44f> camera_from_object_;
+    std::span<const M44f> camera_from_object_;
     float scale_, nearest_;
     float side_;  ///< pixels
     V2f across_;  ///< how far from the axis the picture reaches at depth 1
@@ -211,7 +211,7 @@ std::vector<V3f> moved_points(const BlobbyField& field, const BlobbyMesh& mesh, 
 BlobbyField field_at(const Primitive& primitive, size_t key, const FindDepthHeight* depth_heights) {
     const auto& blobby = std::get<Blobby>(primitive.shape_keys[key]->topology);
     if (!depth_heights) return blobby_field(blobby);
-    const std::vector<M44f>& places = primitive.camera_from_object;
+    const std::span<const M44f> places = primitive.camera_from_object;
     const size_t shapes = primitive.shape_keys.size();
     const size_t place = shapes > 1 ? key * (places.size() - 1) / (shapes - 1) : 0;
     return blobby_field(blobby, [&](const std::string& name) -> GroundHeight {
