@@ -139,7 +139,7 @@ TEST(DiceAttributes, WhatTurnsToTheViewerIsDicedForIt) {
     };
     const auto count = [&](std::vector<M44f> keys) {
         Square square;
-        square.scene.scene.primitives.front().camera_from_object = std::move(keys);
+        square.scene.scene.primitives.front().camera_from_object = keys;
         return static_cast<double>(square.micropolygons());
     };
     const double still = count({turned(89)}), turning = count({turned(89), turned(60)});

@@ -52,7 +52,7 @@ struct TestScene {
         Primitive primitive;
         primitive.attributes = attributes;
         primitive.shape_keys = std::move(shapes);
-        primitive.camera_from_object = std::move(camera_from_object);
+        primitive.camera_from_object = camera_from_object;
         scene.primitives.push_back(std::move(primitive));
         return *this;
     }

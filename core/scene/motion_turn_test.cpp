@@ -19,7 +19,7 @@ Primitive turning(std::initializer_list<float> degrees) {
         poses.push_back(stretch * turn * m);
     }
     Primitive primitive;
-    primitive.camera_from_object = std::move(poses);
+    primitive.camera_from_object = poses;
     return primitive;
 }
 

@@ -60,7 +60,7 @@ struct MadeCurves {
         for (Parameter& variable : variables) list.set(std::move(variable));
         primitive.attributes = attributes;
         primitive.shape_keys = {testing::shape_of(curves, std::move(list))};
-        primitive.camera_from_object = std::move(camera_from_object);
+        primitive.camera_from_object = camera_from_object;
         surface = make_surface(primitive, diagnostics, {camera, nullptr});
     }
     struct Point {

@@ -26,7 +26,7 @@ Primitive primitive_of(std::vector<Parameter> variables, std::vector<M44f> camer
     Primitive primitive;
     primitive.attributes = std::make_shared<Attributes>();
     primitive.shape_keys = {testing::shape_of(points, std::move(list))};
-    primitive.camera_from_object = std::move(camera_from_object);
+    primitive.camera_from_object = camera_from_object;
     return primitive;
 }
 

@@ -265,7 +265,7 @@ std::unique_ptr<Surface> make_blobby_surface(const Primitive& primitive, const S
         keys.push_back(std::make_shared<const Shape>(Shape{topology, std::move(list)}));
     }
     Primitive polygons = primitive;
-    polygons.shape_keys = std::move(keys);
+    polygons.shape_keys = keys;
     auto surface = std::make_unique<BlobbySurface>(std::move(polygons), diagnostics);
     return surface->is_valid() ? std::move(surface) : nullptr;
 }

@@ -43,7 +43,7 @@ struct MadeLimit {
         for (size_t k = 1; k < keys.size(); ++k)
             shapes.push_back(std::make_shared<const Shape>(
                 Shape{testing::subdivision_of(cage, tags, scheme), {{testing::points(keys[k])}}}));
-        primitive.shape_keys = std::move(shapes);
+        primitive.shape_keys = shapes;
         surface = make_subdivision_surface(primitive, diagnostics);
     }
     const Surface& operator*() const { return *surface; }
