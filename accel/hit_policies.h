@@ -66,11 +66,11 @@ struct AnyHit {
 
 /// What is in the way, as far as grids can tell: ends at the first hit of an opaque one.
 struct FirstOpaque {
-    float near = -std::numeric_limits<float>::infinity();  ///< nearer hits count as others
+    DepthRange sure = kAllDepths;         ///< hits outside of it count as others
     bool opaque = false, layers = false;  ///< hits of grids that are, and of others, seen so far
 
     void consider(const Hit& hit, bool of_opaque, TraceRay& ray) {
-        const bool is_opaque = of_opaque && hit.depth >= near;
+        const bool is_opaque = of_opaque && hit.depth >= sure.min && hit.depth <= sure.max;
         layers |= !is_opaque;
         if (!is_opaque) return;
         opaque = true;

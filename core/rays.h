@@ -23,6 +23,7 @@ struct DepthRange {
     float min = 0;
     float max = std::numeric_limits<float>::infinity();
 };
+inline constexpr DepthRange kAllDepths{-std::numeric_limits<float>::infinity()};
 
 /// A ray of any direction, for what is not seen through the lens.
 struct SpaceRay {

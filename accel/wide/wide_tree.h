@@ -109,9 +109,8 @@ struct WideChildren;
 struct RangedRay {
     SpaceRay ray;
     DepthRange range;
-    /// Whether hits nearer than this are in the way is not sure.
-    float near = -std::numeric_limits<float>::infinity();
-    Hit from = kFirstHit;  ///< closest hits in front of it do not count
+    DepthRange sure = kAllDepths;  ///< whether hits outside of it are in the way is not sure
+    Hit from = kFirstHit;          ///< closest hits in front of it do not count
 
     /// Goes on behind a hit: others may be as deep.
     void pass(const Hit& hit) { range.min = hit.depth, from = {hit.depth, hit.id + 1}; }
@@ -140,9 +139,8 @@ class WideTree final : public RayQuery {
     /// one.
     void nearest(const SpaceRay& ray, DepthRange range, NearestHits& hits) const;
     /// In one go what any() and, where grids are not all opaque, closest() would be asked for. Whether hits
-    /// nearer than `near` count is not sure: all of these are Layers.
-    InTheWay in_the_way(const SpaceRay& ray, DepthRange range,
-                        float near = -std::numeric_limits<float>::infinity()) const;
+    /// outside of `sure` count is not sure: all of these are Layers.
+    InTheWay in_the_way(const SpaceRay& ray, DepthRange range, DepthRange sure = kAllDepths) const;
     /// The same of many rays: of those that come in the order of their origins the ones that go alike share
     /// most of the work.
     void in_the_way(std::span<const RangedRay> rays, std::span<InTheWay> met) const;

@@ -56,18 +56,37 @@ inline float level_side(int level) {
     return level == 0 ? 0.0f : static_cast<float>(1 << (2 * level));
 }
 
+/// A place that surfaces may pass through of which nothing is known: micropolygons in whose planes it lies do
+/// not count near to it.
+struct LooseEnd {
+    float most = -kInfinity;  ///< from it: where all hits count
+    float half = 0;           ///< how far from it a plane passes in which it lies
+
+    /// A quadrilateral's corners are 00, 10, 01 and 11. `displaced`: its surface is, and is rougher.
+    bool lies_in(const std::array<V3f, 4>& corners, const V3f& place, bool displaced) const {
+        constexpr float kRougher = 4;
+        const auto& [p00, p10, p01, p11] = corners;
+        const V3f normal = (p11 - p00).cross(p01 - p10), middle = (p00 + p10 + p01 + p11) / 4;
+        const float height = std::abs((place - middle).dot(normal));
+        return height <= half * (displaced ? kRougher : 1) * normal.length();
+    }
+};
+
 /// The surface that a ray leaves, near its beginning. What rays meet of it lies within a slab along its
 /// tangent plane: hits of micropolygons within the slab do not count (shade/rays/surface_slab.h).
 struct LeftSurface {
     float most = 0;          ///< distances from which all hits count
     float half = kInfinity;  ///< of the slab's thickness; infinite: hits count from `most` on
     V3f normal{0, 0, 0};     ///< of the slab, unit length or 0
+    LooseEnd loose = {};     ///< in place of all that, where the ray leaves no surface that is known
 
     /// From where on hits along a unit direction may count: where it has left the slab.
     float distance(const V3f& direction) const {
         const float rise = std::abs(direction.dot(normal));
         return half < most * rise ? half / rise : most;
     }
+    /// Distances from where on all hits count.
+    float sure() const { return std::max(most, loose.most); }
     /// Whether a way from the beginning leads out of the slab on the side of a direction.
     bool is_left(const V3f& way, const V3f& direction) const {
         const float height = way.dot(normal);
@@ -119,6 +138,15 @@ class PassedSurfaces {
     RayHitPlace last_;
 };
 
+/// Where a ray ends that leads to a place, not to a surface that is known.
+struct ReachedPlace {
+    float distance = kInfinity;  ///< from the ray's origin
+    LooseEnd end = {};
+
+    /// Distances up to where all hits count.
+    float sure() const { return distance - end.most; }
+};
+
 /// A part of a ray, in camera space at shutter open: held there while the shutter is open, also where the
 /// camera moves.
 struct RaySegment {
@@ -130,6 +158,7 @@ struct RaySegment {
     float number = 0;   ///< 0 to 1: which levels of detail in transition it sees (SeenNumbers)
     bool backwards = false;  ///< stands for light that goes the other way: what faces that way faces the ray
     LeftSurface left;
+    ReachedPlace reached;
     PassedSurfaces passed;
     RayAhead* ahead = nullptr;        ///< what RayScene::closest() has found behind its last answers
     const RayFilter* only = nullptr;  ///< hits that count; null: all that the attributes let be seen

@@ -38,7 +38,9 @@ PlacedRay::PlacedRay(const RaySegment& ray, const ObjectPlace& at) : place(&at) 
 }
 
 RangedRay PlacedRay::ranged(const RaySegment& ray) const {
-    return {.ray = space, .range = {ray.min * scale, ray.max * scale}, .near = ray.left.most * scale};
+    return {.ray = space,
+            .range = {ray.min * scale, ray.max * scale},
+            .sure = {ray.left.sure() * scale, ray.reached.sure() * scale}};
 }
 
 }  // namespace trapeze

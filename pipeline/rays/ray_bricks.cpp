@@ -130,7 +130,7 @@ void RayBricks::in_the_way(std::span<const RangedRay> rays, std::span<InTheWay> 
         rays, [&](const Meeting& meeting) { return met[meeting.ray] != InTheWay::Opaque; },
         [&](const Brick& brick, uint32_t ray) {
             const RangedRay& asked = rays[ray];
-            met[ray] = std::max(met[ray], brick.tree->in_the_way(asked.ray, asked.range, asked.near));
+            met[ray] = std::max(met[ray], brick.tree->in_the_way(asked.ray, asked.range, asked.sure));
         });
 }
 

@@ -84,12 +84,32 @@ RayFacet RayHits::facet(const RaySegment& ray, const PlacedRay& placed, const Ra
     return facet;
 }
 
+bool RayHits::is_displaced(const PlacedRay& placed, const RayGridHit& found) const {
+    const Attributes& attributes = dicer_.attributes(primitive(placed, *found.grid));
+    return attributes.displacement || attributes.displacement_bound > 0;
+}
+
+/// Whether a hit may be the surface that the ray leaves.
+bool RayHits::is_left(const RaySegment& ray, const PlacedRay& placed, const RayGridHit& found) const {
+    const LeftSurface& left = ray.left;
+    if (!(found.hit.depth < left.sure() * placed.scale)) return false;
+    const std::array<V3f, 4> of_it = corners(placed, found);
+    if (left.loose.most > 0) return left.loose.lies_in(of_it, ray.origin, is_displaced(placed, found));
+    return std::ranges::none_of(
+        of_it, [&](const V3f& corner) { return left.is_left(corner - ray.origin, ray.direction); });
+}
+
+/// Whether a hit may be what the ray's end lies on.
+bool RayHits::is_reached(const RaySegment& ray, const PlacedRay& placed, const RayGridHit& found) const {
+    if (!(found.hit.depth > ray.reached.sure() * placed.scale)) return false;
+    const Primitive& own = dicer_.context().scene->primitives[primitive(placed, *found.grid)];
+    if (own.solid >= 0) return false;  // which are counted
+    return ray.reached.end.lies_in(corners(placed, found), ray.origin + ray.direction * ray.reached.distance,
+                                   is_displaced(placed, found));
+}
+
 bool RayHits::counts(const RaySegment& ray, const PlacedRay& placed, const RayGridHit& found) const {
-    if (found.hit.depth < ray.left.most * placed.scale &&
-        std::ranges::none_of(corners(placed, found), [&](const V3f& corner) {
-            return ray.left.is_left(corner - ray.origin, ray.direction);
-        }))
-        return false;
+    if (is_left(ray, placed, found) || is_reached(ray, placed, found)) return false;
     if (ray.passed.has(primitive(placed, *found.grid), found.hit.depth / placed.scale)) return false;
     return shows(ray, placed, found);
 }

@@ -29,8 +29,8 @@ class RayHits {
   public:
     RayHits(const RayDicer& dicer, uint8_t level);
 
-    /// Whether a hit counts: not where it may be the surface that the ray leaves, nor where the ray wants
-    /// other groups or sides.
+    /// Whether a hit counts: not where it may be the surface that the ray leaves or ends on, nor where the
+    /// ray wants other groups or sides.
     bool counts(const RaySegment& ray, const PlacedRay& placed, const RayGridHit& found) const;
     RaySurfaceHit hit_of(const RaySegment& ray, const PlacedRay& placed, const RayGridHit& found) const;
 
@@ -39,6 +39,9 @@ class RayHits {
     bool from_outside(const PlacedRay& placed, const V3f& direction, const RayGridHit& found) const;
     RayFacet facet(const RaySegment& ray, const PlacedRay& placed, const RayGridHit& found) const;
     bool shows(const RaySegment& ray, const PlacedRay& placed, const RayGridHit& found) const;
+    bool is_left(const RaySegment& ray, const PlacedRay& placed, const RayGridHit& found) const;
+    bool is_reached(const RaySegment& ray, const PlacedRay& placed, const RayGridHit& found) const;
+    bool is_displaced(const PlacedRay& placed, const RayGridHit& found) const;
 
     const RayDicer& dicer_;
     const uint8_t level_;

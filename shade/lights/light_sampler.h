@@ -33,6 +33,8 @@ class LightSampler {
     /// from is the function's integral over the light as it is seen from P.
     virtual LightSample sample(const V3f& P, const V3f& N, const V2f& square) const = 0;
 
+    /// How far points may lie from the surface that they stand for.
+    virtual float roughness() const { return 0; }
     /// Of one side; 1 where the light is nowhere.
     virtual float area() const { return 1; }
     /// Light comes from all of its points alike: one is enough.

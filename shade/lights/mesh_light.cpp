@@ -32,6 +32,14 @@ uint32_t direction_of(const V3d& normal) {
     return place;
 }
 
+/// A sphere's triangles, 32 along its longest side, have a sagitta of a fortieth of their sides. Of what is
+/// round rays meet what lies in its middle.
+constexpr float kRoughnessOfSide = 1.0f / 16;
+
+float longest_side(const LightMesh::Triangle& t) {
+    return std::max({(t.b - t.a).length(), (t.c - t.b).length(), (t.a - t.c).length()});
+}
+
 /// The list: triangles, and behind them tubes and balls. Parts of it are parts of the surface, for
 /// micropolygons that follow each other are neighbours; within a part triangles follow their normals. So
 /// places that are even over the square are so over the surface, and over the directions into which it
@@ -42,18 +50,25 @@ class MeshLight final : public LightSampler {
         for (size_t i = 0; i < mesh.triangles.size(); ++i) {
             if (!take(area_of(mesh.triangles[i]))) continue;
             faces_.emplace_back(mesh.triangles[i], two_sided, places_.size());
+            roughness_ = std::max(roughness_, kRoughnessOfSide * longest_side(mesh.triangles[i]));
             if (!mesh.places.empty()) places_.push_back(mesh.places[i]);
         }
         for (const LightMesh::Tube& tube : mesh.tubes)
-            if (is_finite(wide(tube.from) + wide(tube.to)) && take(trapeze::area_of(tube)))
+            if (is_finite(wide(tube.from) + wide(tube.to)) && take(trapeze::area_of(tube))) {
                 tubes_.push_back(tube);
+                roughness_ = std::max({roughness_, tube.from_radius, tube.to_radius});
+            }
         for (const LightMesh::Ball& ball : mesh.balls)
-            if (is_finite(wide(ball.middle)) && take(trapeze::area_of(ball))) balls_.push_back(ball);
+            if (is_finite(wide(ball.middle)) && take(trapeze::area_of(ball))) {
+                balls_.push_back(ball);
+                roughness_ = std::max(roughness_, ball.radius);
+            }
         cut();
     }
 
     bool is_there() const { return !ends_.empty() && std::isfinite(ends_.back()); }
     float area() const override { return static_cast<float>(ends_.back()); }
+    float roughness() const override { return roughness_; }
 
     LightSample sample(const V3f& P, const V3f&, const V2f& square) const override {
         const double x = static_cast<double>(square.x), y = static_cast<double>(square.y);
@@ -180,7 +195,8 @@ class MeshLight final : public LightSampler {
     std::vector<LightMesh::Place> places_;
     std::vector<LightMesh::Tube> tubes_;
     std::vector<LightMesh::Ball> balls_;
-    std::vector<double> ends_;    ///< area of the pieces up to each: faces, tubes, balls
+    std::vector<double> ends_;  ///< area of the pieces up to each: faces, tubes, balls
+    float roughness_ = 0;
     std::vector<size_t> strips_;  ///< the number of pieces up to the end of each strip
 };
 

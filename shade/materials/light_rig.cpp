@@ -235,6 +235,8 @@ Task<> LightRig::run(size_t light, Slot& slot, const vm::LightRequest& request,
     context.light_output = &output;
     context.lights = nullptr;
     context.ray_times = times;
+    if (const LightSampler* const at_open = lamp.sampler_at(0))
+        context.light_roughness = at_open->roughness();
     co_await shader.set_run_defaults(*machine_, registers, context, {}, given);
     co_await machine_->run(registers, context);
     if (lamp.area && shader.program().directional) samples_.turn_back(output.L);

@@ -148,20 +148,19 @@ void GatherCall::add_rays(size_t number, int first, int count) {
     ray.sent = sent_numbers_.data() + number * arguments_.sent.size();
     ray.segment.only = arguments_.only();
     ray.segment.level = asking.level();
-    const bool is_distance = !colors_ && asked_.empty();  // which is asked of P
     ray.footprint.width = asker_.width_at(aim.P, asking);
     ray.footprint.spread = ray.segment.spread = spread_of(angle, arguments_.samples_at(lane));
-    const auto begins = [&](const LeftSurface& left) {
-        return traces_ && !is_distance && aim.leads()
-                   ? asker_.leaving_at(aim.P, asking, arguments_.bias.at(lane), left, kind_)
-                   : std::nullopt;
+    const auto begins = [&](const RaySegment& segment) {
+        return traces_ && aim.leads() ? asker_.leaving_at(aim.P, segment.direction, asking,
+                                                          arguments_.bias.at(lane), segment.left, kind_)
+                                      : std::nullopt;
     };
     for (int s = first; s < first + count; ++s) {
         ray.segment.time = motion.time(s);
         const V3f P = aim.P + motion.way(ray.segment.time);
         ray.segment.left = asker_.left_at(P, asking, motion, ray.segment.time, arguments_.bias.at(lane));
-        const V3f inwards = is_distance ? V3f(0, 0, 0) : RayAsker::inwards_of_face(asking, ray.segment.left);
-        ray.moved = motion.turned(inwards, ray.segment.time, true);
+        const V3f inwards = RayAsker::inwards_of_face(asking, ray.segment.left);
+        (asks_distance() ? ray.witness : ray.moved) = motion.turned(inwards, ray.segment.time, true);
         ray.segment.max = aim.leads() ? arguments_.max_distance_at(lane) : 0;
         if (aim.leads()) ray.end = ray.segment.max;
         const V3f direction = angle == 0                        ? axis
@@ -176,7 +175,7 @@ void GatherCall::add_rays(size_t number, int first, int count) {
         ray.segment.origin = origin + ray.moved;
         ray.medium = asker_.medium(asking, direction);
         ray.seed = asking.of_ray(s), ray.segment.number = asker_.number(asking, s);
-        if (std::optional<LeavingPoint> leaving = begins(ray.segment.left)) {
+        if (std::optional<LeavingPoint> leaving = begins(ray.segment)) {
             leaving->P += origin - P, leaving->is_vertex = origin == P;
             LeavingRay start{.ray = rays_.size()};
             start.way = motion.turned_back(ray.segment.direction, ray.segment.time, true);
@@ -203,7 +202,7 @@ Task<> GatherCall::follow() {
     starts_.settle(*service.scene, kind_, grounds_, rays_);
     answers_.assign(rays_.size() * asked_.size, 0.0f);
     for (size_t i = 0; i < rays_.size(); ++i) rays_[i].answers = answers_.data() + i * asked_.size;
-    if (!colors_ && asked_.empty()) co_return walk.distance(rays_, ask);
+    if (asks_distance()) co_return walk.distance(rays_, ask);
     co_await walk.radiance(rays_, ask);
     if (too_deep)
         for (WalkedRay& ray : rays_) ray.seen = V3f(0, 0, 0);

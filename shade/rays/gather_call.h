@@ -36,6 +36,7 @@ class GatherCall final : public vm::GatherTurns {
                     const vm::Step& step);
     Task<> send(const uint32_t* live);
     void add_rays(size_t number, int first, int count);
+    bool asks_distance() const { return !colors_ && asked_.empty(); }
     Task<> follow();
     void tell(const RayLane& lane, const WalkedRay& ray) const;
 

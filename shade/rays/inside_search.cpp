@@ -27,7 +27,7 @@ void InsideSearch::add(const RaySegment& ray, float from, RayMedium& found) {
     if (is_new && ray.only) filter->second = *ray.only;
     filter->second.sides = RayFilter::Sides::OfAttributes, filter->second.with_inside = true;
     Looking& one = looking_.emplace_back(Looking{ray, &found});
-    one.ray.only = &filter->second, one.ray.left = {};
+    one.ray.only = &filter->second, one.ray.left = {}, one.ray.reached = {};
     one.ray.min = std::max(from, 0.0f), one.ray.max = std::numeric_limits<float>::infinity();
 }
 

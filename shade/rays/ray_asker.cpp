@@ -41,9 +41,9 @@ float RayAsker::side(int level) const {
     return std::max(std::sqrt(std::max(attributes_.shading_rate, 1.0f)), level_side(level));
 }
 
-float RayAsker::bend_of(const ShadingGrid& grid) const {
+SurfaceBend RayAsker::bend_of(const ShadingGrid& grid) const {
     const bool displaced = attributes_.displacement || attributes_.displacement_bound > 0 || grid.displaced;
-    if (displaced || turns_to_camera(*grid.primitive)) return kInfinity;
+    if (displaced || turns_to_camera(*grid.primitive)) return {};
     return trapeze::bend_of(grid, *service_.scene, side(grid.hit_level));
 }
 
@@ -58,19 +58,43 @@ LeftSurface RayAsker::left_at(const V3f& P, const RayLane& lane, const LaneMotio
                               float asked) const {
     LeftSurface left;
     left.most = margin_at(P, lane, asked);
-    if (asked >= 0 || attributes_.rays.bias > 0) return left;
-    if (!(lane.bend < left.most)) return left;
+    if (has_bias(asked)) return left;
     const V3f at_open = normal_at(P - motion.way(time), lane);
+    const bool turns = lane.grid && turns_to_camera(*lane.grid->primitive);
+    if (at_open == V3f(0, 0, 0) && !turns)
+        return {.loose = loose_end_at(P, lane, std::min(lane.bend.most, left.most / 8))};
+    if (!(lane.bend.most < left.most)) return left;
     const std::optional<V3f> normal = motion.normal(at_open, time);
     if (at_open == V3f(0, 0, 0) || !normal) return left;
     left.normal = *normal;
-    left.half = lane.bend + rounding_at(*lane.grid, lane.lane - lane.first_of_grid);
+    left.half = lane.bend.most + rounding_at(*lane.grid, lane.lane - lane.first_of_grid) +
+                (P - motion.way(time) - vertex_of(lane)).length();
     return left;
 }
 
-std::optional<LeavingPoint> RayAsker::leaving_at(const V3f& P, const RayLane& lane, float asked,
-                                                 const LeftSurface& left, RayKind kind) const {
-    if (left.half < kInfinity || asked >= 0 || attributes_.rays.bias > 0 || !lane.grid) return {};
+/// Of a smooth surface that bends within some sides, micropolygons that rays meet pass within a part of their
+/// sides of its points.
+LooseEnd RayAsker::loose_end_at(const V3f& P, const RayLane& lane, float roughness) const {
+    constexpr float kHalfOfMost = 1.0f / 32;
+    const float most = margin_at(P, lane, -1);
+    return {std::max(most, roughness / kHalfOfMost), std::max(most * kHalfOfMost, roughness)};
+}
+
+ReachedPlace RayAsker::reached_at(const RayAim& aim, const RayLane& lane, float roughness) const {
+    return {aim.length, loose_end_at(aim.P + aim.direction * aim.length, lane, roughness)};
+}
+
+/// Whether a ray stays in the slab for so long that it meets a surface within it that bends towards the ray.
+bool RayAsker::may_come_back(const V3f& direction, const RayLane& lane, const LeftSurface& left) {
+    constexpr float kSafe = 2;
+    const float bend = lane.bend.towards(direction, left.normal);
+    return left.most * std::abs(direction.dot(left.normal)) < kSafe * bend;
+}
+
+std::optional<LeavingPoint> RayAsker::leaving_at(const V3f& P, const V3f& direction, const RayLane& lane,
+                                                 float asked, const LeftSurface& left, RayKind kind) const {
+    const bool leaves_slab = left.half < kInfinity && !may_come_back(direction, lane, left);
+    if (leaves_slab || has_bias(asked) || !lane.grid) return {};
     const Primitive& primitive = *lane.grid->primitive;
     if (!are_seen_by(attributes_.rays, kind) || primitive.solid >= 0 || turns_to_camera(primitive)) return {};
     LeavingPoint point;
@@ -88,13 +112,19 @@ std::optional<LeavingPoint> RayAsker::leaving_at(const V3f& P, const RayLane& la
 bool RayAsker::knows_where_to_begin(const V3f& P, const RayLane& lane, const LaneMotion& motion, float asked,
                                     RayKind kind) const {
     const LeftSurface left = left_at(P, lane, motion, 0, asked);
-    return left.half < kInfinity || leaving_at(P, lane, asked, left, kind).has_value();
+    return left.half < kInfinity || leaving_at(P, left.normal, lane, asked, left, kind).has_value();
+}
+
+V3f RayAsker::vertex_of(const RayLane& lane) {
+    return lane.grid->P.front().at(lane.lane - lane.first_of_grid);
 }
 
 V3f RayAsker::normal_at(const V3f& P, const RayLane& lane) {
     if (!lane.grid) return V3f(0, 0, 0);
     const size_t vertex = lane.lane - lane.first_of_grid;
-    const bool is_there = (P - lane.grid->P.front().at(vertex)).length() <= rounding_at(*lane.grid, vertex);
+    // Points that shaders move off it by less than it bends are meant to be on it.
+    const float bend = lane.bend.most < kInfinity ? lane.bend.most : 0;
+    const bool is_there = (P - vertex_of(lane)).length() <= std::max(bend, rounding_at(*lane.grid, vertex));
     return is_there ? lane.grid->Ng.at(vertex) : V3f(0, 0, 0);
 }
 

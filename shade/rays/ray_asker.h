@@ -8,6 +8,7 @@
 
 #include "core/scene/level_of_detail.h"
 #include "core/scene/scene.h"
+#include "shade/rays/ray_aim.h"
 #include "shade/rays/ray_starts.h"
 #include "shade/rays/ray_walk.h"
 #include "shade/rays/surface_slab.h"
@@ -39,7 +40,7 @@ struct RayLane {
     size_t first = 0, count = 1;
     const ShadingGrid* grid = nullptr;  ///< whose vertex it is, if any is known
     size_t first_of_grid = 0;
-    float bend = kInfinity;  ///< of the grid, RayAsker::bend_of()
+    SurfaceBend bend;  ///< of the grid, RayAsker::bend_of()
 
     /// Of the geometry that it lies on.
     uint8_t level() const { return grid ? grid->hit_level : uint8_t{0}; }
@@ -55,8 +56,8 @@ class RayAsker {
         : service_(service), attributes_(attributes), seen_(seen_numbers(attributes)) {}
 
     const RayService& service() const { return service_; }
-    /// bend_of() a grid of the surface, next to what rays meet of it; infinite where it is not known.
-    float bend_of(const ShadingGrid& grid) const;
+    /// bend_of() a grid of the surface, next to what rays meet of it.
+    SurfaceBend bend_of(const ShadingGrid& grid) const;
     /// How near to P, at most, rays of a lane begin or end: what they meet of a surface there lies within it,
     /// by the size of pixels at P. `asked` below 0: the call does not say.
     float margin_at(const V3f& P, const RayLane& lane, float asked) const;
@@ -64,15 +65,20 @@ class RayAsker {
     /// as above.
     LeftSurface left_at(const V3f& P, const RayLane& lane, const LaneMotion& motion, float time,
                         float asked) const;
-    /// What rays of a kind leave at P, as the shutter opens, where `left` does not tell; nothing where they
-    /// do not meet it, or where the call or the attributes say from where on hits count.
-    std::optional<LeavingPoint> leaving_at(const V3f& P, const RayLane& lane, float asked,
-                                           const LeftSurface& left, RayKind kind) const;
+    /// Where a ray ends that goes the way `aim` to a place of which the lane knows nothing but how far it may
+    /// lie from its surface.
+    ReachedPlace reached_at(const RayAim& aim, const RayLane& lane, float roughness) const;
+    /// Whether the call or the attributes say from where on hits count.
+    bool has_bias(float asked) const { return asked >= 0 || attributes_.rays.bias > 0; }
+    /// What a ray of a kind leaves at P, as the shutter opens, where `left` does not tell along its
+    /// direction; nothing where it does not meet it, or where has_bias().
+    std::optional<LeavingPoint> leaving_at(const V3f& P, const V3f& direction, const RayLane& lane,
+                                           float asked, const LeftSurface& left, RayKind kind) const;
     /// Whether either tells of rays of a kind at P as the shutter opens.
     bool knows_where_to_begin(const V3f& P, const RayLane& lane, const LaneMotion& motion, float asked,
                               RayKind kind) const;
-    /// Which way the surface faces of a lane's vertex at P, as the shutter opens; 0 where P is somewhere
-    /// else.
+    /// Which way the surface faces of a lane's vertex at P or next to it, as the shutter opens; 0 where P is
+    /// somewhere else.
     static V3f normal_at(const V3f& P, const RayLane& lane);
     /// What is left of light that comes to the other side of a lane's own surface than is seen of it, at P:
     /// all of it where the surface is none that `only`, or rays of transmission, meet from there
@@ -80,8 +86,8 @@ class RayAsker {
     V3f left_of_light_behind(const RayLane& lane, bool is_met, const RayFilter* only) const;
     /// How far within its own grid the rays of a lane begin that is on an edge of the grid (inwards_at()).
     static V3f inwards(const RayLane& lane, const LeftSurface& left);
-    /// Of rays that tell what is seen from P: on edges of the face alone, and no farther than a quarter of a
-    /// side of what rays meet.
+    /// Of rays that tell what is seen from P, or how far it is: on edges of the face alone, and no farther
+    /// than a quarter of a side of what rays meet.
     static V3f inwards_of_face(const RayLane& lane, const LeftSurface& left);
     /// How wide the rays of a lane are where they begin.
     float width_at(const V3f& P, const RayLane& lane) const;
@@ -108,6 +114,9 @@ class RayAsker {
 
   private:
     float side(int level) const;
+    LooseEnd loose_end_at(const V3f& P, const RayLane& lane, float roughness) const;
+    static V3f vertex_of(const RayLane& lane);
+    static bool may_come_back(const V3f& direction, const RayLane& lane, const LeftSurface& left);
 
     const RayService& service_;
     const Attributes& attributes_;

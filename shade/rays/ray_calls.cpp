@@ -28,10 +28,6 @@ using vm::Step;
 
 constexpr float kTurn = 2 * std::numbers::pi_v<float>;
 
-bool is_finite(const V3f& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 /// Sets the result of the lanes that a lane speaks for.
 void put(const Operand& out, const RayLane& lane, const V3f& value) {
     put_lanes(out, lane.first, lane.count, value);
@@ -68,8 +64,8 @@ struct RayCalls::Call {
     bool ends_at_point() const {
         return between_points() || (step.op == Op::Shadow && !arguments.distant_light);
     }
-    /// Who asks how far it is asks it of P.
-    bool is_distance() const { return step.op == Op::Trace && !colors; }
+    /// What is wanted is the distance from P, and no more.
+    bool is_distance() const { return step.op == Op::Trace && !colors && !arguments.sets("transmission"); }
     /// Who asks what a direction leads to asks it of P.
     bool is_exact() const { return step.op == Op::Trace || step.op == Op::Environment; }
     bool over_sky() const { return step.op == Op::Occlusion || step.op == Op::IndirectDiffuse; }
@@ -113,7 +109,7 @@ RayAim RayCalls::Call::aim_at(size_t lane, const LaneMotion& motion, float time)
 V3f RayCalls::Call::share_of(const WalkedRay& ray, size_t lane) const {
     switch (step.op) {
         case Op::Trace:
-            return colors ? ray.seen : V3f(ray.distance);
+            return colors ? ray.seen : V3f(ray.told_distance());
         case Op::Environment:
             return colors ? ray.seen : V3f(ray.seen[arguments.channel]);
         case Op::IndirectDiffuse:
@@ -171,8 +167,8 @@ std::vector<RayLane> RayCalls::lanes_of(Run& run, const Step& step, bool uniform
 }
 
 /// Of one of the grids, or none.
-float RayCalls::bend_of(const ShadingGrid* grid) {
-    if (!grid) return kInfinity;
+SurfaceBend RayCalls::bend_of(const ShadingGrid* grid) {
+    if (!grid) return {};
     const auto [known, is_new] = bends_.try_emplace(grid);
     if (is_new) known->second = asker_.bend_of(*grid);
     return known->second;
@@ -297,8 +293,8 @@ void RayCalls::add_arrival(const Call& call, const RayLane& asking, const RayAim
     segment.left = asker_.left_at(end, asking, motion, aim.time, bias);
     segment.min = segment.left.distance(segment.direction);
     segment.max = std::min(asker_.margin_at(end, asking, bias), aim.length);
-    const std::optional<LeavingPoint> leaving =
-        asker_.leaving_at(call.arguments.towards_at(asking.lane), asking, bias, segment.left, call.kind());
+    const std::optional<LeavingPoint> leaving = asker_.leaving_at(
+        call.arguments.towards_at(asking.lane), segment.direction, asking, bias, segment.left, call.kind());
     if (!leaving && !(segment.min < segment.max)) return;
     if (leaving) {
         const V3f back = motion.turned_back(segment.direction, aim.time, true);
@@ -320,7 +316,8 @@ void RayCalls::begin_on_ground(const Call& call, const RayLane& asking, const Ra
     const WalkedRay& ray = sent.rays.back();
     const float bias = call.arguments.bias.at(asking.lane), angle = call.angle_at(asking.lane);
     std::optional<LeavingPoint> leaving =
-        asker_.leaving_at(call.arguments.from_at(asking.lane), asking, bias, ray.segment.left, call.kind());
+        asker_.leaving_at(call.arguments.from_at(asking.lane), ray.segment.direction, asking, bias,
+                          ray.segment.left, call.kind());
     if (!leaving) return;
     leaving->P += beside, leaving->is_vertex = beside == V3f(0, 0, 0);
     LeavingRay start{.ray = sent.rays.size() - 1};
@@ -368,17 +365,21 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, LaneRays& sent)
     RayAim aim = call.aim_at(lane, motion, 0);
     if (!aim.leads()) return;
     Cone cone(aim.direction, angle);
+    const bool ends_here = call.between_points() && !call.begins_here(lane, motion);
     const auto look_along = [&] {
         ray.segment.left = asker_.left_at(aim.P, asking, motion, aim.time, bias);
-        const V3f inwards = call.is_distance() ? V3f(0, 0, 0)
-                            : call.is_exact()  ? RayAsker::inwards_of_face(asking, ray.segment.left)
-                                               : RayAsker::inwards(asking, ray.segment.left);
-        ray.moved = motion.turned(inwards, aim.time, true);
+        const V3f inwards = call.is_exact() ? RayAsker::inwards_of_face(asking, ray.segment.left)
+                                            : RayAsker::inwards(asking, ray.segment.left);
+        (call.is_distance() ? ray.witness : ray.moved) = motion.turned(inwards, aim.time, true);
         ray.end = ray.segment.max = arguments.max_distance_at(lane);
         if (call.ends_at_point()) {
             const V3f end = aim.P + aim.direction * aim.length;
+            const bool ends_loose = !ends_here && !asker_.has_bias(bias);
+            const float margin = ends_loose ? 0 : asker_.margin_at(end, asking, bias);
             ray.end = std::min(ray.end, aim.length);
-            ray.segment.max = std::min(ray.segment.max, aim.length - asker_.margin_at(end, asking, bias));
+            ray.segment.max = std::min(ray.segment.max, aim.length - margin);
+            if (ends_loose)
+                ray.segment.reached = asker_.reached_at(aim, asking, call.run.context().light_roughness);
         }
         ray.segment.time = aim.time;
     };
@@ -388,7 +389,6 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, LaneRays& sent)
     ray.segment.spread = ray.footprint.fastest();
     const RaySequence sequence(asking.seed, samples);
     const SampleBase base(call.run);
-    const bool ends_here = call.between_points() && !call.begins_here(lane, motion);
     const bool arrives = ends_here && asker_.knows_media(asking);
     const V3f at_surface = ends_here ? arguments.towards_at(lane) : arguments.from_at(lane);
     // Samples of area lights are chosen for how the surface lies then.
@@ -397,7 +397,6 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, LaneRays& sent)
     const float above = outside.dot(aim.direction);
     const bool knows_surface =
         outside != V3f(0, 0, 0) && asker_.knows_where_to_begin(at_surface, asking, motion, bias, call.kind());
-    const bool begins_here = !ends_here && !call.is_distance();
     const bool by_cosine = call.over_sky() && !arguments.uniform_distribution;
     for (int s = 0; s < samples; ++s) {
         if (const float time = motion.time(s); time != aim.time) {
@@ -416,7 +415,7 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, LaneRays& sent)
         (arrives ? ray.end_medium : ray.medium) = asker_.medium(asking, arrives ? -way : way);
         ray.seed = asking.of_ray(s), ray.segment.number = asker_.number(asking, s);
         sent.rays.push_back(ray);
-        if (begins_here) begin_on_ground(call, asking, aim, motion, origin - aim.P, sent);
+        if (!ends_here) begin_on_ground(call, asking, aim, motion, origin - aim.P, sent);
         // A surface that has turned since the shutter opened, so that light comes to its other side.
         const V3f seen = motion.turned_back(aim.direction, aim.time, true);
         if (aim.time > 0 && above * outside.dot(seen) < 0)
@@ -440,11 +439,12 @@ Task<bool> RayCalls::follow(const Call& call, std::span<WalkedRay> rays) const {
     ask.opaque = arguments.opaque;
     const bool too_deep = asker_.is_too_deep(ask.kind);
     ask.shades = !too_deep && !(ask.kind == RayKind::Transmission && asker_.dims_alone());
+    if (call.is_distance()) {
+        walk.distance(rays, ask);
+        co_return true;
+    }
     if (op == Op::Trace && !call.colors) {
-        if (arguments.sets("transmission"))
-            co_await walk.transmission(rays, ask, true);
-        else
-            walk.distance(rays, ask);
+        co_await walk.transmission(rays, ask, true);
         co_return true;
     }
     if (op == Op::Trace || op == Op::Environment || op == Op::IndirectDiffuse) {
@@ -464,9 +464,9 @@ void RayCalls::look_at_sky(const Call& call, const Operand& out, std::span<const
     constexpr int kDirections = 64;
     std::vector<V3f> directions;
     for (const RayLane& lane : lanes) {
-        const V3f way = call.arguments.towards_at(lane.lane);
-        const bool leads = is_finite(way) && way.length() > 0;
-        const Cone cone(leads ? way.normalized() : V3f(0, 0, 1), kTurn / 4);
+        const RayAim aim(V3f(0, 0, 0), call.arguments.towards_at(lane.lane), 0);
+        const bool leads = aim.leads();
+        const Cone cone(leads ? aim.direction : V3f(0, 0, 1), kTurn / 4);
         const RaySequence sequence(lane.seed, kDirections);
         for (int s = 0; s < kDirections; ++s)
             directions.push_back(leads ? cone.by_cosine(sequence[s]) : V3f(0, 0, 0));

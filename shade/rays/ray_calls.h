@@ -46,7 +46,7 @@ class RayCalls : public vm::Rays {
     };
 
     std::vector<RayLane> lanes_of(vm::Run& run, const vm::Step& step, bool uniform);
-    float bend_of(const ShadingGrid* grid);
+    SurfaceBend bend_of(const ShadingGrid* grid);
     Task<LaneRays> rays_of(const Call& call, std::span<const RayLane> lanes);
     static void tell(const Call& call, const vm::Operand& out, std::span<const RayLane> lanes,
                      const LaneRays& sent, const V3f& nothing);
@@ -66,7 +66,7 @@ class RayCalls : public vm::Rays {
     RayGrounds grounds_;
     /// How often a call has been made for each lane: calls in loops take other random numbers each time.
     std::unordered_map<const vm::Step*, std::vector<uint32_t>> calls_;
-    std::unordered_map<const ShadingGrid*, float> bends_;
+    std::unordered_map<const ShadingGrid*, SurfaceBend> bends_;
 };
 
 }  // namespace trapeze

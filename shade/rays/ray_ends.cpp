@@ -36,6 +36,11 @@ void make_end(const V3f& end, const V3f& direction, float side, ShadingGrid& gri
     grid.own_colors = grid.is_end = true;
 }
 
+/// From where on what has not counted may be met: as it may lie on the end.
+float end_of_sure(const RaySegment& segment) {
+    return std::max(segment.min, std::min(segment.max, segment.reached.sure()));
+}
+
 }  // namespace
 
 /// Whether media count at the end of a ray that meets nothing there. What has no end is seen through nothing,
@@ -69,7 +74,7 @@ Task<> RayWalk::come_to_ends(std::vector<WalkedRay*>& rays, const RayAsk& ask, W
     InsideSearch search(scene_, volumes_, ask.kind);
     for (WalkedRay* const ray : rays)
         if (volumes_.has_insides() && !volumes_.has(ray->medium) && !volumes_.has(ray->end_medium))
-            search.add(ray->segment, ray->segment.max, ray->end_medium);
+            search.add(ray->segment, end_of_sure(ray->segment), ray->end_medium);
     search.run();
     std::erase_if(rays, [&](const WalkedRay* ray) {
         return !volumes_.has(ray->medium) && !volumes_.has(ray->end_medium);

@@ -13,7 +13,7 @@ void move_to(const V3f& origin, WalkedRay& ray) {
     const V3f moved = origin - ray.segment.origin;
     const float along = moved.dot(ray.segment.direction);
     ray.moved += moved, ray.segment.origin = origin;
-    ray.segment.max -= along, ray.end -= along;
+    ray.segment.max -= along, ray.end -= along, ray.segment.reached.distance -= along;
     ray.segment.min = 0;
 }
 
@@ -26,12 +26,21 @@ void aim(const V3f& from, const LeavingRay& leaving, WalkedRay& ray) {
     if (!leaving.ends) return;
     const float before = ray.end - ray.segment.max;
     ray.end = length, ray.segment.max = length - before;
+    if (ray.segment.reached.distance < kInfinity) ray.segment.reached.distance = length;
 }
 
 /// Turns a direction as a micropolygon has turned since the shutter opened, of which `turn` is a part.
 void turn_along(const RayFacet& facet, const FacetPose& now, const M33f& turn, RaySegment& ray) {
     const V3f before = (facet.at(0).hit.normal * turn).normalized();
     ray.direction = turned_from(before, now.hit.normal, ray.direction);
+}
+
+/// Whether a ray ends so near to where it begins that it may be on the same micropolygon.
+bool ends_on(const FacetPose& facet, const RaySegment& ray) {
+    const ReachedPlace& reached = ray.reached;
+    if (!(reached.sure() <= 0)) return false;
+    const V3f end = ray.origin + ray.direction * reached.distance;
+    return std::abs((end - facet.inner).dot(facet.hit.normal)) <= reached.end.half;
 }
 
 /// Of some rays, by the filters that they have: what may be in their way near to where they begin, from both
@@ -76,6 +85,7 @@ RayStarts::Way RayStarts::begin(const Start& start, const FacetPose& facet, Walk
         ray.moved += origin - ray.segment.origin, ray.segment.origin = origin, ray.segment.min = 0;
     else
         move_to(origin, ray);
+    ray.witness = V3f(0, 0, 0);
     // The own micropolygon does not count, whatever rounds.
     ray.segment.left = {.most = points_[start.point].reach, .half = rounding / 2, .normal = facet.hit.normal};
     return !in_front ? Way::FromBehind : meets_other && above ? Way::Into : Way::Away;
@@ -89,7 +99,7 @@ void RayStarts::come_out(const RayScene& scene, RayKind kind, std::span<const St
     std::vector<RaySegment> segments;
     for (const Start& start : behind) {
         RaySegment& segment = segments.emplace_back(rays[start.leaving.ray].segment);
-        segment.max = points_[start.point].reach, segment.left = {};
+        segment.max = points_[start.point].reach, segment.left = {}, segment.reached = {};
         segment.only = &filters.of(segment.only);
     }
     const std::vector<std::optional<RaySurfaceHit>> hits = closest_hits(scene, kind, segments);
@@ -118,8 +128,10 @@ void RayStarts::meet_grounds(const RayScene& scene, RayKind kind, std::span<cons
         const float rounding = points_[start.point].rounding;
         const V3f out = start.outside ? facet.hit.normal : -facet.hit.normal;
         segment.origin = facet.inner + out * rounding, segment.direction = -out;
-        // Where the ray ends before what lies at its end, nothing is in its way.
-        segment.max = segment.max > 0 ? 3 * rounding : 0, segment.left = {};
+        // Where the ray ends before what lies at its end, or on the micropolygon, nothing is in its way.
+        const RaySegment& ray = rays[start.leaving.ray].segment;
+        segment.max = ray.max > 0 && !ends_on(facet, ray) ? 3 * rounding : 0, segment.left = {},
+        segment.reached = {};
     }
     met_ = closest_hits(scene, kind, segments);
     for (size_t i = 0; i < into.size(); ++i) {

@@ -95,12 +95,36 @@ Task<> RayWalk::transmission(std::span<WalkedRay> rays, const RayAsk& ask, bool 
     co_await walk(open, std::move(free), ask, Wants::Opacity);
 }
 
+/// Of two rays that begin side by side, within a part of a side: the second one tells where the first one has
+/// come by what is in its way, else the first one is exact.
+void RayWalk::ask_witnesses(std::span<WalkedRay> rays, const RayAsk& ask) {
+    std::vector<WalkedRay> seconds;
+    std::vector<WalkedRay*> firsts;
+    for (WalkedRay& ray : rays) {
+        if (ray.witness == V3f(0, 0, 0)) continue;
+        firsts.push_back(&ray);
+        WalkedRay& second = seconds.emplace_back(ray);
+        second.segment.origin += ray.witness, second.moved += ray.witness;
+    }
+    std::vector<std::optional<RaySurfaceHit>> hits(seconds.size());
+    scene_.closest(segments_of(seconds), ask.kind, hits);
+    for (size_t i = 0; i < seconds.size(); ++i) {
+        if (!hits[i]) continue;
+        seconds[i].distance = hits[i]->distance;
+        const float told = seconds[i].told_distance();
+        if (told < firsts[i]->distance - firsts[i]->segment.left.most) firsts[i]->distance = told;
+    }
+}
+
 void RayWalk::distance(std::span<WalkedRay> rays, const RayAsk& ask) {
     std::vector<std::optional<RaySurfaceHit>> hits(rays.size());
     scene_.closest(segments_of(rays), ask.kind, hits);
-    for (size_t i = 0; i < rays.size(); ++i)
+    for (size_t i = 0; i < rays.size(); ++i) {
+        if (rays[i].first) hits[i] = *rays[i].first;
         if (hits[i]) rays[i].distance = hits[i]->distance;
+    }
     count_of(ask.kind, stats_) += rays.size();
+    ask_witnesses(rays, ask);
 }
 
 /// All go on together, a surface farther each time; `free`: rays that are known to meet none before their

@@ -30,6 +30,9 @@ struct WalkedRay {
     /// How far the segment's origin lies from where who asks is told that the ray begins: within the edge
     /// that it stands on.
     V3f moved{0, 0, 0};
+    /// Of distance() alone: from the origin to that of a second ray, which cannot slip through an edge on
+    /// which the first one begins.
+    V3f witness{0, 0, 0};
     uint64_t seed = 0;  ///< of random numbers of shaders that it meets
     RayMedium medium;   ///< what it goes through from the distance `medium_from` on
     float medium_from = 0;
@@ -139,6 +142,7 @@ class RayWalk {
         ShadingGrid* grid = nullptr;
     };
 
+    void ask_witnesses(std::span<WalkedRay> rays, const RayAsk& ask);
     Task<> walk(std::span<WalkedRay* const> rays, std::vector<WalkedRay*> free, const RayAsk& ask,
                 Wants wants);
     bool pass(const Met& met, const RayAsk& ask) const;

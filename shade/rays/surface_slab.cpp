@@ -19,16 +19,24 @@ constexpr float kBendOfSides = 4;
 /// Shorter edges tell of rounding alone; in roundings.
 constexpr float kShortestEdge = 16;
 
-/// Of two vertices beside each other: how far the surface turns, or rises above their tangent planes, within
-/// the side of a micropolygon that rays meet. What turns over a longer edge may turn within a side of it.
-float bend_along(const Triples& P, const Triples& Ng, size_t i, size_t j, float side, float rounding) {
+/// Adds two vertices beside each other: how far the surface turns, or rises above their tangent planes,
+/// within the side of a micropolygon that rays meet. What turns over a longer edge may turn within a side of
+/// it. Normals that turn along the edge away from each other bend inwards; across it they bend both ways.
+void add_bend_along(const Triples& P, const Triples& Ng, size_t i, size_t j, float side, float rounding,
+                    SurfaceBend& bend) {
+    constexpr float kAcross = 0.01f;
     const V3f way = P.at(j) - P.at(i);
     const V3f from = Ng.at(i), to = Ng.at(j);
     const float length = way.length();
-    if (!(length > kShortestEdge * rounding)) return 0;
+    if (!(length > kShortestEdge * rounding)) return;
+    const V3f turned = to - from;
     const float rise = std::max(std::abs(way.dot(from)), std::abs(way.dot(to))) - rounding;
-    const float turn = std::max((to - from).length(), 2 * rise / length);
-    return kBendOfSides * side * side * turn / std::min(length, side);
+    const float turn = std::max(turned.length(), 2 * rise / length);
+    const float most = kBendOfSides * side * side * turn / std::min(length, side);
+    const float apart = turned.dot(way) / length, across = kAcross * turned.length();
+    bend.most = std::max(bend.most, most);
+    if (apart >= -across) bend.inwards = std::max(bend.inwards, most);
+    if (apart <= across) bend.outwards = std::max(bend.outwards, most);
 }
 
 /// Of the slab's half thickness, so that rays leave their own slab before they come to that of another face,
@@ -46,16 +54,16 @@ float rounding_at(const ShadingGrid& grid, size_t vertex) {
     return kRoundings * kRounding * reach;
 }
 
-float bend_of(const ShadingGrid& grid, const RayScene& scene, float pixels) {
+SurfaceBend bend_of(const ShadingGrid& grid, const RayScene& scene, float pixels) {
     const Triples& P = grid.P.front();
     const size_t row = size_t{grid.shape.nu} + 1;
-    float most = 0;
+    SurfaceBend bend{.most = 0};
     for (size_t v = 0; v <= grid.shape.nv; ++v)
         for (size_t u = 0; u < row; ++u) {
             const size_t at = v * row + u;
             const float side = pixels * scene.spacing(P.at(at)), rounding = rounding_at(grid, at);
             const auto look = [&](size_t i, size_t j) {
-                most = std::max(most, bend_along(P, grid.Ng, i, j, side, rounding));
+                add_bend_along(P, grid.Ng, i, j, side, rounding, bend);
             };
             const bool across = u + 1 < row, along = v < grid.shape.nv;
             if (across) look(at, at + 1);
@@ -64,7 +72,7 @@ float bend_of(const ShadingGrid& grid, const RayScene& scene, float pixels) {
             look(at, at + row + 1);
             look(at + 1, at + row);
         }
-    return most;
+    return bend;
 }
 
 V3f inwards_at(const ShadingGrid& grid, size_t vertex, float half, uint8_t sides) {

@@ -13,9 +13,20 @@
 namespace trapeze {
 
 /// How far what rays meet of a grid's surface lies from the tangent planes of the grid's vertices, as far as
-/// bending makes it, in camera space; infinite where that is not known. `pixels`: sides of the micropolygons
-/// that rays meet, in pixels (RayScene::spacing).
-float bend_of(const ShadingGrid& grid, const RayScene& scene, float pixels);
+/// bending makes it, in camera space.
+struct SurfaceBend {
+    float most = kInfinity;  ///< infinite where it is not known
+    /// Where it bends towards its outside, and towards its inside: there rays along it come back to it.
+    float outwards = 0, inwards = 0;
+
+    /// Towards the side of the surface on which a direction is.
+    float towards(const V3f& direction, const V3f& outside) const {
+        return direction.dot(outside) < 0 ? inwards : outwards;
+    }
+};
+
+/// `pixels`: sides of the micropolygons that rays meet, in pixels (RayScene::spacing).
+SurfaceBend bend_of(const ShadingGrid& grid, const RayScene& scene, float pixels);
 
 /// How far positions near a vertex of a grid may be rounded.
 float rounding_at(const ShadingGrid& grid, size_t vertex);

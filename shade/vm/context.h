@@ -199,6 +199,8 @@ struct Context {
     /// In lights that move: when the rays of each lane leave, so that they meet the light where it is
     /// sampled.
     std::span<const float> ray_times = {};
+    /// In lights with an area: how far its points may lie from what rays meet of it.
+    float light_roughness = 0;
     Diagnostics* diagnostics = nullptr;
     float near_clip = 0, far_clip = 1;          ///< camera-space z
     float shutter_open = 0, shutter_close = 0;  ///< times of the scene

@@ -77,6 +77,20 @@ TEST(Rooms, WallsSeeNothingButWalls) {
             EXPECT_LT(mean_of_room(source, motion, kStands, room), 3e-4) << motion << room;
 }
 
+/// Smooth walls of some pixels' sides: rays along them come back to them.
+TEST(Rooms, RoundWallsSeeNothingButWalls) {
+    const std::string source =
+        "surface s() { normal n = faceforward(normalize(N), I); Ci = 1 - occlusion(P, n, 64); Oi = 1; }";
+    const std::string creased =
+        "SubdivisionMesh \"catmull-clark\" [4 4 4 4 4 4] [0 1 3 2 5 4 6 7 1 0 4 5 2 3 7 6 0 2 6 4 3 1 5 7] "
+        "[\"crease\"] [5 1] [0 1 3 2 0] [2.5] \"P\" [-2 -2 -2 2 -2 -2 -2 2 -2 2 2 -2 -2 -2 2 2 -2 2 -2 2 2 2 2 2] ";
+    for (const char* rate : {"ShadingRate 1 ", "ShadingRate 25 ", "ShadingRate 100 "}) {
+        EXPECT_EQ(mean_of_room(source, rate, "", "Sphere 2 -2 2 360 "), 0) << rate;
+        EXPECT_LT(mean_of_room(source, rate, "", creased), 3e-5) << rate;
+        EXPECT_LT(mean_of_room(source, rate, "", "Translate 3 0 0 Torus 3 2 0 360 360 "), 3e-5) << rate;
+    }
+}
+
 /// The box with walls of so many squares along each side, each of two triangles; walls share vertices at the
 /// creases.
 std::string box_of_triangles(int along) {
@@ -103,6 +117,18 @@ std::string box_of_triangles(int along) {
                                        square[2], square[3]);
             }
     return "PointsPolygons [" + faces + "] [" + corners + "] \"P\" [" + points + "] ";
+}
+
+/// Who asks how far it is alone is told of walls, too.
+TEST(Rooms, DistancesAreThoseOfWalls) {
+    const std::string source =
+        "surface s() { normal n = faceforward(normalize(N), I); float far = 0, d = 0;"
+        "if (trace(P, reflect(I, n)) > 9) far += .5;"
+        "gather(\"illuminance\", P, reflect(I, n), 0, 1, \"ray:length\", d) { if (d > 9) far += .5; } else { far += .5; }"
+        "Ci = far; Oi = 1; }";
+    const std::string seen = "Attribute \"visibility\" \"int specular\" 1 ";
+    for (const std::string& room : {box(M44f()), std::string("Sphere 2 -2 2 360 "), box_of_triangles(5)})
+        EXPECT_LT(mean_of_room(source, seen, "", room), 3e-5) << room;
 }
 
 /// Triangles of about a micropolygon: many of their grids' vertices are in one place. Of 16 rays one may go

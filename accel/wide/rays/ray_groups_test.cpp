@@ -34,7 +34,8 @@ void add_hemispheres(const V3f& centre, float width, int side, int rays, Noise& 
             ray.ray = {origin, noise.point(1), noise(0, 1)};
             if (i % 9 == 0) ray.ray.direction[i % 3] = 0;
             if (i % 3 == 0) ray.range = {noise(0, 1), noise(0, 6)};
-            if (i % 4 == 0) ray.near = ray.range.min + 1;
+            if (i % 4 == 0) ray.sure.min = ray.range.min + 1;
+            if (i % 5 == 0) ray.sure.max = ray.range.min + 3;
             to.push_back(ray);
         }
     }
@@ -61,7 +62,7 @@ Ways expect_same(const Grids& grids, const std::vector<RangedRay>& rays) {
     Ways ways;
     std::vector<InTheWay> truth;
     for (const RangedRay& ray : rays) {
-        truth.push_back(tree.in_the_way(ray.ray, ray.range, ray.near));
+        truth.push_back(tree.in_the_way(ray.ray, ray.range, ray.sure));
         ++(truth.back() == InTheWay::Opaque   ? ways.opaque
            : truth.back() == InTheWay::Layers ? ways.layers
                                               : ways.nothing);

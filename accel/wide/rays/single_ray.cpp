@@ -77,8 +77,8 @@ ClosestHit trace_closest(const Query& query, const Hit& from, SingleRayCounts* c
 void trace_nearest(const Query& query, NearestHits& hits) {
     hits = traced(query, CountNothing(), hits);
 }
-FirstOpaque trace_opaque(const Query& query, float near) {
-    return traced(query, CountNothing(), FirstOpaque{.near = near});
+FirstOpaque trace_opaque(const Query& query, DepthRange sure) {
+    return traced(query, CountNothing(), FirstOpaque{.sure = sure});
 }
 AnyHit trace_any(const Query& query, SingleRayCounts* counts) {
     return counts ? traced<AnyHit>(query, CountAll{*counts}) : traced<AnyHit>(query, CountNothing());
@@ -102,7 +102,7 @@ void trace_group(const GroupQuery& query) {
         const RangedRay& ray = query.rays[i];
         turned[count] = TraceRay::turned(axis_ray(ray.ray), ray.range);
         if (!has_numbers(turned[count])) continue;
-        found[count].near = ray.near;
+        found[count].sure = ray.sure;
         number[count++] = i;
     }
     if (count == 0) return;
@@ -161,10 +161,10 @@ bool any_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range, Single
     return HWY_DYNAMIC_DISPATCH(trace_any)({tree, trace_ray}, counts).found;
 }
 
-InTheWay opaque_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range, float near) {
+InTheWay opaque_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range, DepthRange sure) {
     TraceRay trace_ray = TraceRay::turned(axis_ray(ray), range);
     if (!has_numbers(trace_ray)) return InTheWay::Nothing;
-    return in_the_way_of(HWY_DYNAMIC_DISPATCH(trace_opaque)({tree, trace_ray}, near));
+    return in_the_way_of(HWY_DYNAMIC_DISPATCH(trace_opaque)({tree, trace_ray}, sure));
 }
 
 void opaque_hits(const WideTree& tree, std::span<const RangedRay> rays, std::span<InTheWay> met) {

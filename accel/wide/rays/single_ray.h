@@ -26,7 +26,7 @@ std::optional<Hit> closest_hit_from(const WideTree& tree, const SpaceRay& ray, D
 void nearest_hits(const WideTree& tree, const SpaceRay& ray, DepthRange range, NearestHits& hits);
 bool any_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range, SingleRayCounts* counts = nullptr);
 /// WideTree::in_the_way().
-InTheWay opaque_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range, float near);
+InTheWay opaque_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range, DepthRange sure);
 
 /// The same of many rays, in any order: met[i] is that of rays[i]. Those that go alike go together
 /// (accel/wide/rays/ray_groups.h).

@@ -153,10 +153,11 @@ TEST(SingleRay, TellsWhatIsInTheWay) {
     int counts[3] = {0, 0, 0};
     std::vector<Query> queries = queries_around(V3f(0), 5, 3000, noise);
     std::vector<InTheWay> truth;
-    std::vector<float> near;  // nearer hits are layers
+    std::vector<DepthRange> certain;  // hits outside of it are layers
     for (const auto& [ray, range] : queries) {
-        near.push_back(near.size() % 2 ? range.min + 2 : -std::numeric_limits<float>::infinity());
-        const DepthRange sure{std::max(range.min, near.back()), range.max};
+        const size_t n = certain.size();
+        certain.push_back({n % 2 ? range.min + 2 : kAllDepths.min, n % 3 ? kAllDepths.max : range.min + 6});
+        const DepthRange sure{std::max(range.min, certain[n].min), std::min(range.max, certain[n].max)};
         const bool blocked = testing::closest_naively(opaque.grids(), ray, sure) != kNoHit;
         const bool met = testing::closest_naively(all.grids(), ray, range) != kNoHit;
         truth.push_back(blocked ? InTheWay::Opaque : met ? InTheWay::Layers : InTheWay::Nothing);
@@ -165,7 +166,7 @@ TEST(SingleRay, TellsWhatIsInTheWay) {
     for (const int count : counts) EXPECT_GT(count, 100);
     for_each_target([&] {
         for (size_t n = 0; n < queries.size(); ++n)
-            ASSERT_EQ(tree.in_the_way(queries[n].ray, queries[n].range, near[n]), truth[n]) << n;
+            ASSERT_EQ(tree.in_the_way(queries[n].ray, queries[n].range, certain[n]), truth[n]) << n;
     });
 }
 

@@ -24,8 +24,8 @@ void WideTree::in_the_way(std::span<const RangedRay> rays, std::span<InTheWay> m
     opaque_hits(*this, rays, met);
 }
 
-InTheWay WideTree::in_the_way(const SpaceRay& ray, DepthRange range, float near) const {
-    return opaque_hit(*this, ray, range, near);
+InTheWay WideTree::in_the_way(const SpaceRay& ray, DepthRange range, DepthRange sure) const {
+    return opaque_hit(*this, ray, range, sure);
 }
 
 }  // namespace trapeze
