@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "core/motion_keys.h"
+#include "core/scene/motion_turn.h"
 #include "core/scene/scene.h"
 #include "shade/materials/grid_shader.h"
 #include "shade/planes/differences.h"
@@ -31,23 +34,71 @@ void subtract_positions(const Triples& P, size_t vertices, Plane3 moved) {
     }
 }
 
-/// Adds displacement vectors to the positions of a key, turned from the first key's pose to that key's;
-/// returns the longest.
-float move_key(const Plane3& moves, const M44d& key_from_first, Triples& P) {
-    double longest = 0;
-    for (size_t i = 0; i < P.size(); ++i) {
-        const V3d move(moves.x[i], moves.y[i], moves.z[i]);
-        V3d here;
-        key_from_first.multDirMatrix(move, here);
-        longest = std::max(longest, here.length());
-        P.set(i, P.at(i) + V3f(here));
-    }
-    return static_cast<float>(longest);
-}
-
 /// Vertices first .. first + count - 1 of three planes.
 Plane3 part(const Plane3& planes, size_t first, size_t count) {
     return {planes.x.subspan(first, count), planes.y.subspan(first, count), planes.z.subspan(first, count)};
+}
+
+V3f at(const Plane3& planes, size_t i) {
+    return {planes.x[i], planes.y[i], planes.z[i]};
+}
+
+/// How a surface lies at each vertex of a grid, as its vertices tell: unit normals, and ways along u.
+struct Lie {
+    Plane3 normals, along;
+
+    Lie(const ShadingGrid& grid, const Triples& P, const M44d& moved, PlanePool& pool)
+        : normals(pool.take3()), along(pool.take3()) {
+        const Plane3 places = pool.take3();
+        for (size_t i = 0; i < P.size(); ++i) {
+            const V3f place(V3d(P.at(i)) * moved);
+            for (int k = 0; k < 3; ++k) places[k][i] = place[k], normals[k][i] = 0;
+        }
+        const auto in_piece = static_cast<size_t>(grid.shape.vertex_count());
+        for (size_t first = 0; first < P.size(); first += in_piece) {
+            const Plane3 here = part(places, first, in_piece);
+            find_normals(grid.shape, here, grid.reverse_orientation, part(normals, first, in_piece));
+            for (int k = 0; k < 3; ++k)
+                difference(grid.shape, GridAxis::U, here[k], part(along, first, in_piece)[k]);
+        }
+    }
+    /// Along u in the tangent plane, of unit length or 0.
+    V3f tangent(size_t i) const { return across(at(normals, i), at(along, i)); }
+    static V3f across(const V3f& normal, const V3f& way) {
+        return (way - normal * way.dot(normal)).normalized();
+    }
+};
+
+/// How the surface of a grid turns in deforming, from the first key to another one, besides how its pose
+/// turns: as its normal does by the shortest way, and then about that as its u does.
+class LieTurn {
+  public:
+    LieTurn(const ShadingGrid& grid, size_t key, const M44d& key_from_first, PlanePool& pool)
+        : before_(grid, grid.P.front(), key_from_first, pool), after_(grid, grid.P[key], M44d(), pool) {}
+
+    V3f turned(const V3f& move, size_t i) const {
+        const V3f from = at(before_.normals, i), to = at(after_.normals, i);
+        const V3f along = Lie::across(to, turned_from(from, to, before_.tangent(i)));
+        return turned_from(along, after_.tangent(i), turned_from(from, to, move));
+    }
+
+  private:
+    Lie before_, after_;
+};
+
+/// Displacement vectors at a key: turned from the first key's pose to that key's, and as the surface
+/// deforms.
+std::vector<V3f> moves_at_key(const Plane3& moves, size_t key, const ShadingGrid& grid, PlanePool& pool) {
+    const M44d to_key = key_from_first(*grid.primitive, static_cast<int>(key), grid.key_count);
+    std::optional<LieTurn> turn;
+    if (key > 0 && grid.primitive->shape_keys.size() > 1) turn.emplace(grid, key, to_key, pool);
+    std::vector<V3f> at_key;
+    for (size_t i = 0; i < grid.vertex_count(); ++i) {
+        V3d here;
+        to_key.multDirMatrix(V3d(at(moves, i)), here);
+        at_key.push_back(turn ? turn->turned(V3f(here), i) : V3f(here));
+    }
+    return at_key;
 }
 
 void store(ConstPlane3 planes, size_t vertices, Triples& out) {
@@ -82,9 +133,13 @@ float displace_grid(const Displaced& displaced, ShadingGrid& grid, PlanePool& po
     subtract_positions(grid.P.front(), vertices, moves);
 
     float longest = 0;
-    for (size_t key = 0; key < grid.P.size(); ++key) {
-        const M44d to_key = key_from_first(*grid.primitive, static_cast<int>(key), grid.key_count);
-        longest = std::max(longest, move_key(moves, to_key, grid.P[key]));
+    // The first key last: how the others have turned is seen from it as it was.
+    for (size_t key = grid.P.size(); key-- > 0;) {
+        const std::vector<V3f> at_key = moves_at_key(moves, key, grid, pool);
+        for (size_t i = 0; i < vertices; ++i) {
+            longest = std::max(longest, at_key[i].length());
+            grid.P[key].set(i, grid.P[key].at(i) + at_key[i]);
+        }
     }
     grid.displaced = grid.displaced || longest > 0;
     for (int k = 0; k < 3; ++k) {

@@ -23,7 +23,8 @@ Displaced displaced_by(const vm::Registers& registers, size_t first, size_t coun
 M44d key_from_first(const Primitive& primitive, int key, int key_count);
 
 /// `displaced` is what the shader makes of the grid at the first key. How far it moved a vertex is carried to
-/// the other keys by the primitive's pose there (camera_from_object; not by its deformation) and added to P.
+/// the other keys by the primitive's pose there (camera_from_object), turns with the surface where that
+/// deforms, and is added to P.
 /// Then N and Ng are found from the moved P, unless the shader set N; dPdu and dPdv stay those of the
 /// undisplaced surface. Vertices that would move to no finite place stay.
 ///

@@ -113,6 +113,37 @@ TEST(Displacement, TurnsWithThePrimitive) {
     }
 }
 
+/// Bent along u, and turned in deforming, which a pose turns once more; the way turns along, also about the
+/// normal, and stays as long where the surface grows.
+TEST(Displacement, TurnsWithWhatDeforms) {
+    ShadingScene scene;
+    ShaderFolder folder;
+    folder.write("aside", "displacement aside() { P += .3 * normalize(N) + .2 * normalize(dPdu) + .1 * s; }");
+    scene.scene.options.search_paths["shader"] = {folder.path()};
+    scene.attributes->displacement_bound = 10;
+    scene.displacement("aside");
+    Primitive& primitive = scene.scene.primitives[0];
+    primitive.shape_keys = {std::make_shared<Shape>(), std::make_shared<Shape>()};
+    M44f deformed, pose;
+    deformed.setAxisAngle(V3f(1, 2, 3).normalized(), 1.2f);
+    pose.setAxisAngle(V3f(3, 1, 0).normalized(), 0.7f);
+    for (const float size : {1.0f, 1.5f}) {
+        primitive.camera_from_object = {M44f(), pose};
+        ShadingGrid before = scene.grid(6, 5, 2);
+        for (size_t i = 0; i < before.vertex_count(); ++i) {
+            const V3f flat = before.P[0].at(i), bent = flat + V3f(0, 0, 0.3f * flat.x * flat.x);
+            before.P[0].set(i, bent);
+            before.P[1].set(i, bent * size * deformed * pose);
+        }
+        const ShadingGrid after = scene.shaded(before);
+        for (size_t i = 0; i < before.vertex_count(); ++i) {
+            const V3f first = moved(after, before, i), last = moved(after, before, i, 1);
+            EXPECT_GT(first.length(), 0.2f);
+            expect_near_triple(last, first * deformed * pose, 3e-6f);
+        }
+    }
+}
+
 TEST(Displacement, KeysBetweenPosesAreInterpolated) {
     ShadingScene scene;
     scene.attributes->displacement_bound = 10;

@@ -38,6 +38,35 @@ TEST(RayDisplaced, OcclusionOfABallIsItsFormFactor) {
     expect_hidden(image, kSamples);
 }
 
+/// One that grows in deforming from .15 to .25, and is blown up by .15 at all times: for the camera and for
+/// rays that come at all times.
+TEST(RayDisplaced, ABallThatGrowsIsDisplacedAtAllTimes) {
+    Case c;
+    c.options = "Shutter 0 1 ";
+    c.asker = "Attribute \"trace\" \"int samplemotion\" 1 ";
+    c.shaders["blow"] =
+        "displacement blow() { vector out = normalize(vector(P - point(0, 0, 3)));"
+        "  P += .15 * out; N = normal(out); }";
+    c.things =
+        "Attribute \"trace\" \"int displacements\" [1] Attribute \"displacementbound\" \"sphere\" [.2] "
+        "ShadingRate .25 Displacement \"blow\" Translate 0 0 3 "
+        "MotionBegin [0 1] Sphere .15 -.15 .15 360 Sphere .25 -.25 .25 360 MotionEnd ";
+    constexpr int kSamples = 64;
+    // The mean of the radius' square is (.3 * .3 + .3 * .4 + .4 * .4) / 3.
+    const Image image = c.render(
+        "vector m = point(0, 0, 3) - P; float d2 = m . m; float expected = .37 / 3 / d2 * (2 / sqrt(d2));"
+        "Ci = color(occlusion(P, normal(0, 0, -1), " +
+        std::to_string(kSamples) + "), expected, 1);");
+    expect_hidden(image, kSamples);
+    Case seen = c;
+    seen.options += "PixelSamples 8 8 ";
+    seen.asks = "Surface \"constant\" " + c.things;
+    seen.things.clear();
+    double alpha = 0;
+    for (const Pixel& p : pixels(seen.render("Ci = 0;"))) alpha += static_cast<double>(p.alpha) / 4096;
+    EXPECT_NEAR(alpha, .37 / 3 * M_PI / 4, 2e-4);
+}
+
 /// What shaders find at a hit is where the ray has met the displaced surface, not where that was before: P is
 /// on the ray, and I leads along it. So it is for what the hit's shader asks in turn.
 TEST(RayDisplaced, HitsAreSeenWhereTheyHaveBeenMet) {
