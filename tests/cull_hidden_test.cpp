@@ -202,21 +202,26 @@ TEST(CullHidden, VerticesThatAreSeenAlone) {
 TEST(CullHidden, IsOnWhereItPays) {
     const WorkFolder folder;
     folder.write("ask.sl", "surface ask() { Ci = 1 - occlusion(P, normalize(N), 4); Oi = 1; }");
-    const auto unshaded = [&](const std::string& shader, const std::string& more = "",
+    const auto unshaded = [&](const std::string& shader, const std::string& things = kBall,
                               CullHidden cull = CullHidden::Auto) {
         folder.write("a.rib", "Option \"searchpath\" \"string shader\" [\"" + folder.path().string() +
                                   ":&\"] Display \"x\" \"exr\" \"rgba\" Format 64 48 1 WorldBegin "
                                   "ShadingRate .05 Attribute \"visibility\" \"int diffuse\" 1 Surface \"" +
-                                  shader + "\" " + kBall + more + "WorldEnd\n");
+                                  shader + "\" " + things + "WorldEnd\n");
         return render_scene((folder / "a.rib").string(), culling(cull))[0].stats.unshaded_grids;
     };
     EXPECT_GT(unshaded("ask"), 0u);
     EXPECT_EQ(unshaded("constant"), 0u);
     // Finely diced glass hides nothing, and the one opaque ball too little.
-    const std::string glass = "Surface \"glassy\" ShadingRate .005 " + kBall;
+    const std::string glass = kBall + "Surface \"glassy\" ShadingRate .005 " + kBall;
     folder.write("glassy.sl", "surface glassy() { Ci = .1 * occlusion(P, normalize(N), 4); Oi = .1; }");
     EXPECT_EQ(unshaded("ask", glass), 0u);
     EXPECT_GT(unshaded("ask", glass, CullHidden::On), 0u);
+    // Behind a wall that fills the picture there is next to nothing.
+    const std::string wall =
+        "Patch \"bilinear\" \"P\" [-3 3 2 3 3 2 -3 -3 2 3 -3 2] Translate 0 0 5 Sphere .2 -.2 .2 360 ";
+    EXPECT_EQ(unshaded("ask", wall), 0u);
+    EXPECT_GT(unshaded("ask", wall, CullHidden::On), 0u);
 }
 
 }  // namespace

@@ -65,6 +65,64 @@ bool enough_hides(const std::vector<uint32_t>& candidates, const Tessellation& t
     return hiding * kOneOf >= all;
 }
 
+/// How much of what is in a picture lies behind something, as far as bounds tell: in cells of some pixels,
+/// what micropolygons cover of each beyond what fits side by side.
+class Overlap {
+  public:
+    explicit Overlap(const PixelRect& pixels)
+        : pixels_(pixels),
+          columns_((pixels.width() + kCell - 1) / kCell),
+          covered_(static_cast<size_t>(columns_) *
+                   static_cast<size_t>((pixels.height() + kCell - 1) / kCell)) {}
+
+    /// Spreads what a subpatch covers evenly over its bound, which whole pixels make larger by about one each
+    /// way.
+    void add(const SubpatchInfo& subpatch, float shading_rate) {
+        const PixelRect& bound = subpatch.bound;
+        if (bound.empty()) return;
+        const auto across = static_cast<float>(bound.width()), along = static_cast<float>(bound.height());
+        const float inner = std::max(across - 1, 0.5f) * std::max(along - 1, 0.5f);
+        const float wished = static_cast<float>(subpatch.shape.micropolygon_count()) * shading_rate;
+        const float share = std::min(wished, inner) / (across * along);
+        const int x0 = std::max(bound.x0, pixels_.x0), x1 = std::min(bound.x1, pixels_.x1);
+        const int y0 = std::max(bound.y0, pixels_.y0), y1 = std::min(bound.y1, pixels_.y1);
+        for (int y = y0; y < y1; y = next_cell(y, pixels_.y0))
+            for (int x = x0; x < x1; x = next_cell(x, pixels_.x0)) {
+                const int width = std::min(next_cell(x, pixels_.x0), x1) - x;
+                const int height = std::min(next_cell(y, pixels_.y0), y1) - y;
+                const int column = (x - pixels_.x0) / kCell, row = (y - pixels_.y0) / kCell;
+                covered_[static_cast<size_t>(row * columns_ + column)] +=
+                    share * static_cast<float>(width) * static_cast<float>(height);
+            }
+    }
+    float hidden_part() const {
+        constexpr float kFits = kCell * kCell;
+        float all = 0, hidden = 0;
+        for (const float covered : covered_) all += covered, hidden += std::max(covered - kFits, 0.0f);
+        return all > 0 ? hidden / all : 0;
+    }
+
+  private:
+    static constexpr int kCell = 16;  ///< pixels along a side
+    static int next_cell(int at, int first) { return at + kCell - (at - first) % kCell; }
+
+    PixelRect pixels_;
+    int columns_;
+    std::vector<float> covered_;  ///< pixels, by cell
+};
+
+/// Whether so much may lie behind something that finding out pays.
+bool enough_is_hidden(const RenderContext& context, const Region& region,
+                      const std::vector<uint32_t>& candidates, const Tessellation& tessellation) {
+    constexpr float kLeastPart = 0.2f;
+    Overlap overlap(region.pixels);
+    for (const uint32_t candidate : candidates) {
+        const SubpatchInfo& subpatch = tessellation.subpatches()[candidate];
+        overlap.add(subpatch, context.scene->primitives[subpatch.primitive].attributes->shading_rate);
+    }
+    return overlap.hidden_part() >= kLeastPart;
+}
+
 /// What a thread needs to look at tiles.
 struct TileLooker {
     SampleTile samples;
@@ -149,7 +207,9 @@ void leave_out_hidden(const RenderContext& context, Region& region, const Tessel
             candidates.push_back(subpatch);
         else
             wanted[subpatch].set();
-    if (!always && !enough_hides(candidates, tessellation, shading)) return;
+    if (!always && !(enough_hides(candidates, tessellation, shading) &&
+                     enough_is_hidden(context, region, candidates, tessellation)))
+        return;
     const Grids grids = plain_grids(context, candidates, tessellation, shading);
     if (context.is_cancelled() || grids.grids.empty()) return;
     const std::unique_ptr<Visibility> visibility = sampler.prepare(context, grids);

@@ -26,8 +26,9 @@ enum class CullHidden : uint8_t {
 /// sees, and those that must be shaded in any case (Shading::may_stay_unshaded()). Of those that are seen in
 /// part, vertices that no sample sees are not wanted, where shaders allow it (Shading::may_ask_for_some()).
 /// Takes the samples through the region once more, but composites nothing; where their layers take more than
-/// the limits allow, nothing is left out; nor where `always` is false and so little hides what is behind that
-/// to find out takes longer. The picture is the same bits. Adds to the stats' counts of what is left out.
+/// the limits allow, nothing is left out; nor where `always` is false and so little hides what is behind, or
+/// lies behind anything, that to find out takes longer. The picture is the same bits. Adds to the stats'
+/// counts of what is left out.
 void leave_out_hidden(const RenderContext& context, Region& region, const Tessellation& tessellation,
                       const Shading& shading, const Sampler& sampler, const SamplePattern& pattern,
                       const LayerLimits& limits, bool always, FrameStats& stats);
