@@ -308,7 +308,9 @@ std::optional<FileFormat> file_format(const Display& display) {
 
 void rename(Display& display, std::string name) {
     const auto before = file_format(display);
+    const bool was_deep = is_deep(display);
     display.name = std::move(name), display.type = "file";
+    if (was_deep && file_format(display) == FileFormat::OpenExr) display.type = "deepexr";
     // Another format has other compressions, and perhaps no attributes.
     if (file_format(display) == before) return;
     std::erase_if(display.parameters.values, [](const Parameter& parameter) {

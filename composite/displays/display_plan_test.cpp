@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/scene/deep_pictures.h"
+
 namespace trapeze {
 namespace {
 
@@ -263,6 +265,17 @@ TEST(DisplayPlan, WhatMeansNothingIsTold) {
         deep.parameters.set(floats("deeptolerance", {tolerance}));
         EXPECT_EQ(planned(deep).warnings, 1u);
     }
+}
+
+TEST(DisplayPlan, ADeepPictureStaysDeepUnderAnotherName) {
+    Display display{"a.exr", "deepexr", "rgba", {}, {}};
+    rename(display, "b.exr");
+    EXPECT_EQ(display.name, "b.exr");
+    EXPECT_TRUE(is_deep(display));
+    rename(display, "b.png");
+    EXPECT_FALSE(is_deep(display));
+    rename(display, "c.exr");
+    EXPECT_FALSE(is_deep(display));
 }
 
 TEST(DisplayPlan, QuantizeOfTheDisplayBeatsThatOfTheOptions) {
