@@ -342,6 +342,17 @@ TEST(AreaLightShadows, ThePenumbraOfWhatMovesIsItsMeanOverTheShutter) {
     expect_moving_penumbra(c);
 }
 
+/// The light goes the other way in place of the edge, so far that the edge's shadow goes as it did.
+TEST(AreaLightShadows, ThePenumbraOfALightThatMovesIsItsMeanOverTheShutter) {
+    Case c = lit_by(ris("PxrDiskLight",
+                        "MotionBegin [0 1] Translate 3.33333 0 -95 Translate -3.33333 0 -95 MotionEnd "
+                        "Scale 6 6 1"));
+    c.options = "Shutter 0 1 ";
+    c.asker += "Attribute \"trace\" \"int samplemotion\" [1] ";
+    c.things = "Patch \"bilinear\" \"P\" [-3 3 -10 0 3 -10 -3 -3 -10 0 -3 -10] ";
+    expect_moving_penumbra(c);
+}
+
 TEST(AreaLightShadows, AreCastOnlyWhereTheyAreWanted) {
     const auto mean_behind_a_wall = [](const std::string& parameters, const std::string& of_wall = "") {
         Case c = lit_by(ris("PxrRectLight", "Translate 0 0 3", parameters, 9));

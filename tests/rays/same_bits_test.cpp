@@ -94,6 +94,21 @@ const Meeting kMeetings[] = {
      "Surface \"leaves\" Translate 0 0 2 " +
          kMetBall,
      "Ci = transmission(P, point(0, 0, 0)) + indirectdiffuse(P, normal(0, 0, -1), 16);"},
+    {"loose_ends",
+     {},
+     "",
+     "",
+     "Surface \"tints\" Translate 0 0 2 " + kMetBall + "Translate 0 0 2.9 Sphere .09 -.09 .09 360 ",
+     "Ci = transmission(P, point(0, 0, 4.9)) + occlusion(P - vector(0, 0, .002), normal(0, 0, -1), 16) +"
+     "  color(min(trace(P - vector(0, 0, .4), vector(.3 * xcomp(P), .3 * ycomp(P), -1)), 9));"},
+    {"within_a_ball",
+     {{"walls",
+       "surface walls() { vector n = faceforward(normalize(N), I);"
+       "  Ci = occlusion(P, n, 16) + trace(P, reflect(I, n)) * color(1, .1, .01); Oi = 1; }"}},
+     "",
+     "",
+     "Attribute \"trace\" \"int maxspeculardepth\" [3] Surface \"walls\" Translate 0 0 5 Sphere 2 -2 2 360 ",
+     kAsksAhead},
     {"instances",
      {},
      "Shutter 0 1 ",
@@ -116,19 +131,21 @@ class RaysSameBits : public ::testing::TestWithParam<Meeting> {
         c.things = meeting.things;
         return c;
     }
-    static Image render(int threads = 2, size_t memory = 0) {
+    static Image render(int threads = 2, size_t memory = 0, int regions = 1) {
         Case c = asking();
         c.threads = threads;
+        c.settings.regions_at_least = regions;
         if (memory > 0) c.settings.memory_bytes = memory, c.may_say = "memory-budget";
         return c.render(GetParam().body);
     }
 };
 
-TEST_P(RaysSameBits, ForAnyNumberOfThreadsAndLittleMemory) {
+TEST_P(RaysSameBits, ForAnyNumberOfThreadsAndRegionsAndLittleMemory) {
     const Image one = render(1);
     EXPECT_GT(mean(one, [](const Pixel& p) { return static_cast<double>(p.red + p.green + p.blue); }), 0.01)
         << "rays tell nothing";
     EXPECT_TRUE(same_bits(one, render(4)));
+    EXPECT_TRUE(same_bits(one, render(2, 0, 5)));
     EXPECT_TRUE(same_bits(one, render(2, size_t{3} << 20)));
 }
 
