@@ -79,6 +79,8 @@ struct LeftSurface {
     float half = kInfinity;  ///< of the slab's thickness; infinite: hits count from `most` on
     V3f normal{0, 0, 0};     ///< of the slab, unit length or 0
     LooseEnd loose = {};     ///< in place of all that, where the ray leaves no surface that is known
+    /// With `loose`: a primitive that does not count either near the beginning, for it is left; else none.
+    uint32_t own = ~uint32_t{0};
 
     /// From where on hits along a unit direction may count: where it has left the slab.
     float distance(const V3f& direction) const {

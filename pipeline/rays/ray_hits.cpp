@@ -94,6 +94,7 @@ bool RayHits::is_left(const RaySegment& ray, const PlacedRay& placed, const RayG
     const LeftSurface& left = ray.left;
     if (!(found.hit.depth < left.sure() * placed.scale)) return false;
     const std::array<V3f, 4> of_it = corners(placed, found);
+    if (left.loose.most > 0 && primitive(placed, *found.grid) == left.own) return true;
     if (left.loose.most > 0) return left.loose.lies_in(of_it, ray.origin, is_displaced(placed, found));
     return std::ranges::none_of(
         of_it, [&](const V3f& corner) { return left.is_left(corner - ray.origin, ray.direction); });

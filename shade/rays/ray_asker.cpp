@@ -61,11 +61,11 @@ LeftSurface RayAsker::left_at(const V3f& P, const RayLane& lane, const LaneMotio
     if (has_bias(asked)) return left;
     const V3f at_open = normal_at(P - motion.way(time), lane);
     const bool turns = lane.grid && turns_to_camera(*lane.grid->primitive);
-    if (at_open == V3f(0, 0, 0) && !turns)
-        return {.loose = loose_end_at(P, lane, std::min(lane.bend.most, left.most / 8))};
-    if (!(lane.bend.most < left.most)) return left;
+    const LooseEnd loose = loose_end_at(P, lane, std::min(lane.bend.most, left.most / 8));
+    if (at_open == V3f(0, 0, 0) && !turns) return {.loose = loose};
     const std::optional<V3f> normal = motion.normal(at_open, time);
-    if (at_open == V3f(0, 0, 0) || !normal) return left;
+    const bool has_slab = lane.bend.most < left.most && at_open != V3f(0, 0, 0) && normal;
+    if (!has_slab) return {.loose = loose, .own = lane.grid->primitive_index};
     left.normal = *normal;
     left.half = lane.bend.most + rounding_at(*lane.grid, lane.lane - lane.first_of_grid) +
                 (P - motion.way(time) - vertex_of(lane)).length();

@@ -114,6 +114,25 @@ TEST(RayLooseEnds, PointsBesideASurfaceSeeWhatIsNear) {
     }
 }
 
+/// Hair and particles a third of a pixel's side in front of a wall: it hides all behind them, but they do not
+/// hide themselves.
+TEST(RayLooseEnds, WhatTurnsToTheEyeIsHiddenByWhatIsNear) {
+    const std::string turning[] = {
+        "Curves \"linear\" [2] \"nonperiodic\" \"P\" [-1 0 2 1 .1 2] \"constantwidth\" .2 ",
+        "Points \"P\" [-.5 0 2 .5 0 2] \"constantwidth\" .4 "};
+    for (const std::string& things : turning)
+        for (const bool behind : {true, false}) {
+            SCOPED_TRACE(things + (behind ? "behind" : "in front"));
+            Case c;
+            c.asker = kSeen;
+            c.asks = things;
+            c.things = wall("2.01");
+            expect_told(c.render(std::string("Ci = told(occlusion(P, vector(0, 0, ") +
+                                 (behind ? "1), 16), 1, 1);" : "-1), 16), 0, 1);")),
+                        0, 200);
+        }
+}
+
 /// Nor do they see the surface from which they have been moved, be it bent.
 TEST(RayLooseEnds, PointsBesideABallDoNotSeeIt) {
     Case c;
