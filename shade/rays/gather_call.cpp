@@ -151,9 +151,10 @@ void GatherCall::add_rays(size_t number, int first, int count) {
     ray.footprint.width = asker_.width_at(aim.P, asking);
     ray.footprint.spread = ray.segment.spread = spread_of(angle, arguments_.samples_at(lane));
     const auto begins = [&](const RaySegment& segment) {
-        return traces_ && aim.leads() ? asker_.leaving_at(aim.P, segment.direction, asking,
-                                                          arguments_.bias.at(lane), segment.left, kind_)
-                                      : std::nullopt;
+        return traces_ && aim.leads()
+                   ? asker_.leaving_at(aim.P, segment.direction, asking, arguments_.bias.at(lane),
+                                       segment.left, kind_, asks_distance())
+                   : std::nullopt;
     };
     for (int s = first; s < first + count; ++s) {
         ray.segment.time = motion.time(s);

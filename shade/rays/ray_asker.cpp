@@ -91,9 +91,19 @@ bool RayAsker::may_come_back(const V3f& direction, const RayLane& lane, const Le
     return left.most * std::abs(direction.dot(left.normal)) < kSafe * bend;
 }
 
+/// Whether another face may be within the slab: towards which the surface bends, where the slab is not thin,
+/// or on which the vertex is, as on its own, and from which the ray is not moved far enough.
+bool RayAsker::may_hide_others(const V3f& direction, const RayLane& lane, const LeftSurface& left) {
+    constexpr float kThin = 1.0f / 8;
+    return lane.bend.towards(direction, left.normal) > kThin * left.most ||
+           is_cramped_at(*lane.grid, lane.lane - lane.first_of_grid, left.half, lane.grid->face_sides);
+}
+
 std::optional<LeavingPoint> RayAsker::leaving_at(const V3f& P, const V3f& direction, const RayLane& lane,
-                                                 float asked, const LeftSurface& left, RayKind kind) const {
-    const bool leaves_slab = left.half < kInfinity && !may_come_back(direction, lane, left);
+                                                 float asked, const LeftSurface& left, RayKind kind,
+                                                 bool is_exact) const {
+    const bool leaves_slab = left.half < kInfinity && !may_come_back(direction, lane, left) &&
+                             (is_exact || !may_hide_others(direction, lane, left));
     if (leaves_slab || has_bias(asked) || !lane.grid) return {};
     const Primitive& primitive = *lane.grid->primitive;
     if (!are_seen_by(attributes_.rays, kind) || primitive.solid >= 0 || turns_to_camera(primitive)) return {};

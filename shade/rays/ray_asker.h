@@ -71,9 +71,11 @@ class RayAsker {
     /// Whether the call or the attributes say from where on hits count.
     bool has_bias(float asked) const { return asked >= 0 || attributes_.rays.bias > 0; }
     /// What a ray of a kind leaves at P, as the shutter opens, where `left` does not tell along its
-    /// direction; nothing where it does not meet it, or where has_bias().
+    /// direction; nothing where it does not meet it, or where has_bias(). `is_exact`: who is told how far it
+    /// is from P has a witness for edges (WalkedRay::witness).
     std::optional<LeavingPoint> leaving_at(const V3f& P, const V3f& direction, const RayLane& lane,
-                                           float asked, const LeftSurface& left, RayKind kind) const;
+                                           float asked, const LeftSurface& left, RayKind kind,
+                                           bool is_exact = false) const;
     /// Whether either tells of rays of a kind at P as the shutter opens.
     bool knows_where_to_begin(const V3f& P, const RayLane& lane, const LaneMotion& motion, float asked,
                               RayKind kind) const;
@@ -116,6 +118,7 @@ class RayAsker {
     float side(int level) const;
     LooseEnd loose_end_at(const V3f& P, const RayLane& lane, float roughness) const;
     static V3f vertex_of(const RayLane& lane);
+    static bool may_hide_others(const V3f& direction, const RayLane& lane, const LeftSurface& left);
     static bool may_come_back(const V3f& direction, const RayLane& lane, const LeftSurface& left);
 
     const RayService& service_;

@@ -317,7 +317,7 @@ void RayCalls::begin_on_ground(const Call& call, const RayLane& asking, const Ra
     const float bias = call.arguments.bias.at(asking.lane), angle = call.angle_at(asking.lane);
     std::optional<LeavingPoint> leaving =
         asker_.leaving_at(call.arguments.from_at(asking.lane), ray.segment.direction, asking, bias,
-                          ray.segment.left, call.kind());
+                          ray.segment.left, call.kind(), call.is_distance());
     if (!leaving) return;
     leaving->P += beside, leaving->is_vertex = beside == V3f(0, 0, 0);
     LeavingRay start{.ray = sent.rays.size() - 1};

@@ -100,4 +100,10 @@ V3f inwards_at(const ShadingGrid& grid, size_t vertex, float half, uint8_t sides
     return length > 0 ? way * std::min(kInwards * half / length, kMostInwards) : way;
 }
 
+bool is_cramped_at(const ShadingGrid& grid, size_t vertex, float half, uint8_t sides) {
+    constexpr float kAll = 0.99f;
+    const float length = inwards_at(grid, vertex, half, sides).length();
+    return length > 0 && length < kAll * kInwards * half;
+}
+
 }  // namespace trapeze

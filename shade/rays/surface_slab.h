@@ -37,4 +37,8 @@ float rounding_at(const ShadingGrid& grid, size_t vertex);
 /// where the other one is seen.
 V3f inwards_at(const ShadingGrid& grid, size_t vertex, float half, uint8_t sides);
 
+/// Whether a vertex on some of the sides of a grid has not as much room as inwards_at() wants: what is near
+/// of another face would be hidden by the slab.
+bool is_cramped_at(const ShadingGrid& grid, size_t vertex, float half, uint8_t sides);
+
 }  // namespace trapeze

@@ -77,6 +77,10 @@ TEST(Rooms, WallsSeeNothingButWalls) {
             EXPECT_LT(mean_of_room(source, motion, kStands, room), 3e-4) << motion << room;
 }
 
+/// Rooms of two primitives that meet in circles, with sharp creases.
+const std::string kConeRoom = "Rotate -70 1 0 0 Translate 0 0 -1 Cone 4 2.5 360 Disk 0 2.5 360 ";
+const std::string kDrumRoom = "Rotate 60 1 0 0 Cylinder 1.5 -2 2 360 Disk 2 1.5 360 Disk -2 1.5 360 ";
+
 /// Smooth walls of some pixels' sides: rays along them come back to them.
 TEST(Rooms, RoundWallsSeeNothingButWalls) {
     const std::string source =
@@ -88,6 +92,9 @@ TEST(Rooms, RoundWallsSeeNothingButWalls) {
         EXPECT_EQ(mean_of_room(source, rate, "", "Sphere 2 -2 2 360 "), 0) << rate;
         EXPECT_LT(mean_of_room(source, rate, "", creased), 3e-5) << rate;
         EXPECT_LT(mean_of_room(source, rate, "", "Translate 3 0 0 Torus 3 2 0 360 360 "), 3e-5) << rate;
+        // Their micropolygons do not end in one line.
+        EXPECT_LT(mean_of_room(source, rate, "", kConeRoom), 1e-4) << rate;
+        EXPECT_LT(mean_of_room(source, rate, "", kDrumRoom), 1e-4) << rate;
     }
 }
 
