@@ -76,7 +76,7 @@ class Overlap {
                    static_cast<size_t>((pixels.height() + kCell - 1) / kCell)) {}
 
     /// Spreads what a subpatch covers evenly over its bound, which whole pixels make larger by about one each
-    /// way.
+    /// way; what is blurred over many cells over all of the picture.
     void add(const SubpatchInfo& subpatch, float shading_rate) {
         const PixelRect& bound = subpatch.bound;
         if (bound.empty()) return;
@@ -86,6 +86,12 @@ class Overlap {
         const float share = std::min(wished, inner) / (across * along);
         const int x0 = std::max(bound.x0, pixels_.x0), x1 = std::min(bound.x1, pixels_.x1);
         const int y0 = std::max(bound.y0, pixels_.y0), y1 = std::min(bound.y1, pixels_.y1);
+        if (x1 <= x0 || y1 <= y0) return;
+        const auto seen = static_cast<float>(x1 - x0) * static_cast<float>(y1 - y0);
+        if (seen > kMostCells * kCell * kCell) {
+            everywhere_ += share * seen / static_cast<float>(covered_.size());
+            return;
+        }
         for (int y = y0; y < y1; y = next_cell(y, pixels_.y0))
             for (int x = x0; x < x1; x = next_cell(x, pixels_.x0)) {
                 const int width = std::min(next_cell(x, pixels_.x0), x1) - x;
@@ -98,17 +104,22 @@ class Overlap {
     float hidden_part() const {
         constexpr float kFits = kCell * kCell;
         float all = 0, hidden = 0;
-        for (const float covered : covered_) all += covered, hidden += std::max(covered - kFits, 0.0f);
+        for (const float in_cell : covered_) {
+            const float covered = in_cell + everywhere_;
+            all += covered, hidden += std::max(covered - kFits, 0.0f);
+        }
         return all > 0 ? hidden / all : 0;
     }
 
   private:
     static constexpr int kCell = 16;  ///< pixels along a side
+    static constexpr int kMostCells = 64;
     static int next_cell(int at, int first) { return at + kCell - (at - first) % kCell; }
 
     PixelRect pixels_;
     int columns_;
     std::vector<float> covered_;  ///< pixels, by cell
+    float everywhere_ = 0;        ///< pixels of each cell
 };
 
 /// Whether so much may lie behind something that finding out pays.
